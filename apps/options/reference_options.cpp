@@ -185,7 +185,9 @@ void ReferenceOptions::add_to(Command& command) {
         .add_option("--seed", seed, {0, 4294967295},
                     "seed of the random numbers; the same seed gives the same picture")
         ->capture_default_str();
-    command.add_option("--probes", probes, kProbesRange, "probes or walks for each sample, an even number")
+    command
+        .add_option("--probes", probes, kProbesRange,
+                    "probes (surface takes 6 at least) or walks for each sample, an even number")
         ->capture_default_str();
     command.add_option("--profile", profile, "diffusion profile instead of the scene's");
     command.add_option(

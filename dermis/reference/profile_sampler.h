@@ -3,8 +3,8 @@
 // they add most to the noise.
 //
 // The exitance at x is a quotient, so a probe at y adds noise as R(r) (E(y) - M(x)). The best density is the
-// root of the expected square of that, summed over the channels: sqrt(sum R^2 D). D(r) grows with r, as
-// light that differs lies apart: probes go further out than the light does.
+// root of the expected square of that, summed over the channels: sqrt(sum R^2 D). D(r), the expected square
+// of the difference, grows with r, so probes lie farther out than the light does.
 
 #include <vector>
 

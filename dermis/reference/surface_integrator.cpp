@@ -86,7 +86,7 @@ void SurfaceIntegrator::probe(const DiffusePoint& point, const Probe& of, Sums& 
         const Vec3 offset_mm = surface.p_world_mm - point.p_mm;
         const float density = probe_density(of.disks, offset_mm, hit.n_face);
         if (density <= 0) continue;
-        // By the straight distance, before rays look for the way through flesh, which is no shorter.
+        // First by the straight distance, which is at most the way through flesh and needs no rays.
         const float straight_weight = most(profile_.reflectance(length(offset_mm))) / density;
         const float survival = std::min(1.0f, straight_weight / kFullWeight);
         if (survival <= 0 || chance.next_1d() >= survival) continue;

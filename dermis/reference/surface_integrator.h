@@ -12,8 +12,8 @@
 // Both integrals use the same probes, so an even irradiance has no noise; the jackknife (Quenouille 1956)
 // removes most of the quotient's bias.
 //
-// Where E is an estimate, each probe takes E(x) off by the numbers u_i that its own E(y) takes, and their
-// mean is added (a control variate; Glasserman 2003, section 4.1):
+// Where E is an estimate, each probe subtracts E(x), estimated with the same random numbers u_i as its E(y),
+// and the mean of all E(x) is added (a control variate; Glasserman 2003, section 4.1):
 //
 //     M(x) = mean of E(x, u_i) + sum w_i (E(y_i, u_i) - E(x, u_i)) / sum w_i
 //

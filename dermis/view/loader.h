@@ -29,7 +29,7 @@ class Loader {
     /// Begins to bake what `scene`, the one that was loaded last, lacks.
     void complete(Scene scene);
     [[nodiscard]] bool is_loading() const { return loading_.valid(); }
-    /// Of what is being loaded or was loaded last.
+    /// What is being loaded; if nothing is, what was loaded last.
     [[nodiscard]] Load what() const { return what_; }
     [[nodiscard]] const std::string& path() const { return path_; }
     /// Takes the result if there is one.

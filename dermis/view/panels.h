@@ -33,7 +33,7 @@ struct PanelFacts {
     std::vector<float> frame_history_ms;  ///< oldest first
     std::string loading;                  ///< the scene that is being read; empty: none
     double elapsed_s = 0;                 ///< since the window's start
-    bool lacks_bakes = false;             ///< the scene that is shown
+    bool lacks_bakes = false;             ///< curvature and occlusion of the shown scene
     std::string probe;                    ///< the surface under the mouse pointer
 };
 

@@ -18,7 +18,7 @@ TIMES = ("time_ms", "time_ratio")
 class Compare(TestCase):
     # With a cache of its own: another test may refine the same reference between the two.
     def test_scores_are_the_command_lines(self):
-        with mock.patch.dict(os.environ, XDG_CACHE_HOME=str(self.folder / "cache")):
+        with mock.patch.dict(os.environ, DERMIS_CACHE=str(self.folder / "cache")):
             self.compare_both()
 
     def compare_both(self):

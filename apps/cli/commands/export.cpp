@@ -81,7 +81,8 @@ Result<Texts> texts_with_gain(const Profile& profile, const PackageGain& gain,
     return texts;
 }
 
-// The gain takes seconds of walks. Functions that do not need it have the same text with any two gains.
+// Walks find the gain, unless it is cached. Functions that do not need it have the same text with any two
+// gains.
 Result<Texts> skin_texts(const Profile& profile, std::span<const shading::Language> languages,
                          const Texts& names) {
     const PackageGain none,
