@@ -187,7 +187,7 @@ void ReferenceOptions::add_to(Command& command) {
         ->capture_default_str();
     command
         .add_option("--probes", probes, kProbesRange,
-                    "probes (surface takes 6 at least) or walks for each sample, an even number")
+                    "probes (6 at least) or walks for each sample, an even number")
         ->capture_default_str();
     command.add_option("--profile", profile, "diffusion profile instead of the scene's");
     command.add_option(

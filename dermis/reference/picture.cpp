@@ -83,8 +83,9 @@ Result<void> check_settings(const ReferenceSettings& s) {
         return good.error();
     if (s.samples < 2 || s.samples > kMostSamples)
         return out_of_range("samples a pixel", s.samples, "2..65536");
-    if (s.probes < 2 || s.probes > 65536 || s.probes % 2)
-        return out_of_range("probes", s.probes, "2..65536, even");
+    const int least_probes = s.integrator == Integrator::walk ? 2 : kLeastProbes;
+    if (s.probes < least_probes || s.probes > 65536 || s.probes % 2)
+        return out_of_range("probes", s.probes, std::to_string(least_probes) + "..65536, even");
     if (!(s.width_scale >= 0 && s.width_scale <= 1000))
         return out_of_range("width scale", s.width_scale, "0..1000");
     if (s.noise && !(*s.noise > 0 && *s.noise < 1))

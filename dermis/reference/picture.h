@@ -40,7 +40,7 @@ struct ReferenceSettings {
     int samples = 64;               ///< a pixel at most, 2..65536
     std::optional<double> noise;    ///< stop when the picture's relative error is at most this
     uint32_t seed = 1;
-    int probes = 16;         ///< probes or walks a sample, even; `surface` takes 6 at least
+    int probes = 16;         ///< probes or walks a sample, even: kLeastProbes..65536, of `walk` 2..65536
     double width_scale = 1;  ///< stretches the profile or all lengths of the medium; 0 is lambert
     Normalisation normalisation = Normalisation::by_area;
     Cavities cavities = Cavities::flesh;

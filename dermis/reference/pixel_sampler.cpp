@@ -85,7 +85,6 @@ PixelSampler::PixelSampler(const Scene& scene, const ReferenceSettings& settings
       reflection_(std::move(reflection)),
       brdf_(std::move(brdf)),
       lighting_(scene_, rays_, materials_, environment_, lighting, &reflection_, brdf_ ? &*brdf_ : nullptr) {
-    if (settings.integrator != Integrator::walk) settings_.probes = std::max(settings.probes, kLeastProbes);
     const float aspect = float(settings.width) / float(settings.height);
     inverse_view_projection_ = camera_matrices(scene.camera, aspect).inverse_view_projection;
 }

@@ -124,7 +124,10 @@ TEST_F(BadInput, references_that_cannot_be_made_leave_nothing) {
     expect_error("reference builtin:spheres --integrator wolk" + to, "did you mean 'walk'?");
     expect_error("reference builtin:spheres --medium 'sigma=1'" + to, "--medium: 'sigma=1'");
     expect_error("reference builtin:spheres --medium 'g=0.5'" + to, "add --integrator walk");
-    expect_error("reference builtin:spheres --probes 3" + to, "probes is 3");
+    expect_error("reference builtin:spheres --probes 3" + to, "probes is 3, not within 6..65536");
+    expect_error("reference builtin:spheres --probes 4" + to, "probes is 4, not within 6..65536");
+    expect_error("reference builtin:spheres --integrator walk --probes 3" + to,
+                 "probes is 3, not within 2..65536");
     expect_error("reference builtin:spheres --noise 2" + to, "--noise: 2 is not in its range");
     expect_error("reference builtin:spheres --size 0x8" + to, "0");
     expect_error("reference builtin:spheres --profile jensen" + to, "jensen");
@@ -265,7 +268,7 @@ TEST_F(BadInput, output_paths_reach_the_terminal_as_printable_text) {
     for (const std::string& line :
          {"bake lut --size 8 -o '" + name + ".exr'", "bake closed_form --rows 9 -o '" + name + ".csv'",
           "render spheres --size 8 -o '" + name + ".png'", "export --language hlsl -o '" + name + ".hlsl'",
-          "reference spheres --size 8 --samples 2 --probes 2 -o '" + name + ".exr'",
+          "reference spheres --size 8 --samples 2 --probes 6 -o '" + name + ".exr'",
           "profile convert gpu_gems_3 -o '" + name + ".mtlx'"}) {
         const ProgramResult written = dermis(line);
         EXPECT_EQ(written.exit_code, 0) << written.err;

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kJobsPicture = "reference spheres --size 16x16 --samples 28 --probes 4 ";
+constexpr const char* kJobsPicture = "reference spheres --size 16x16 --samples 28 --probes 6 ";
 
 class Jobs : public testing::Test {
   protected:

@@ -37,7 +37,7 @@ class Merge : public testing::Test {
     TemporaryDirectory directory_;
 };
 
-constexpr const char* kPicture = "reference spheres --size 12x12 --samples 16 --probes 4 ";
+constexpr const char* kPicture = "reference spheres --size 12x12 --samples 16 --probes 6 ";
 
 }  // namespace
 
@@ -53,7 +53,7 @@ TEST_F(Merge, parts_give_the_bytes_of_one_run) {
     expect_error(
         "merge part_0:4.exr part_12:16.exr -o hole.exr",
         "samples 4:12 of 0:16 are in no part; run: dermis reference spheres --size 12x12 --samples 16 "
-        "--probes 4 --sample-range 4:12 -o FILE.exr");
+        "--probes 6 --sample-range 4:12 -o FILE.exr");
     expect_error("merge one.exr -o none.exr", "one.exr is not a part of a picture");
     expect_error("merge part_0:4.exr -o /proc/none.exr", "/proc/none.exr");
     fs::resize_file(directory_.path / "part_4:12.exr", 700);

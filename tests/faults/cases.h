@@ -25,8 +25,8 @@ inline void PrintTo(const Case& one, std::ostream* out) {
 }
 
 constexpr const char* kParts =
-    "$DERMIS reference scene.toml --size 8x8 --samples 8 --probes 2 --sample-range 0:4 -o a.exr && "
-    "$DERMIS reference scene.toml --size 8x8 --samples 8 --probes 2 --sample-range 4:8 -o b.exr";
+    "$DERMIS reference scene.toml --size 8x8 --samples 8 --probes 6 --sample-range 0:4 -o a.exr && "
+    "$DERMIS reference scene.toml --size 8x8 --samples 8 --probes 6 --sample-range 4:8 -o b.exr";
 constexpr const char* kPicture = "$DERMIS render scene.toml --size 16x16 -o a.exr";
 constexpr const char* kAlbedo = "$DERMIS bake lut --size 16x16 --storage 8 -o a.png";
 constexpr const char* kTable = "$DERMIS bake lut --size 16x16 --storage 8 -o table.png";
@@ -62,8 +62,8 @@ constexpr Case kCases[] = {
     {"keys", "keys"},
     {"techniques", "techniques"},
     {"subjects", "subjects --json"},
-    {"reference", "reference scene.toml --size 8x8 --samples 2 --probes 2 -o out/a.exr"},
-    {"part", "reference scene.toml --size 8x8 --samples 8 --probes 2 --sample-range 4:8 -o out/a.exr"},
+    {"reference", "reference scene.toml --size 8x8 --samples 2 --probes 6 -o out/a.exr"},
+    {"part", "reference scene.toml --size 8x8 --samples 8 --probes 6 --sample-range 4:8 -o out/a.exr"},
     {"merge", "merge a.exr b.exr -o out/a.exr --preview out/a.png", Made::each, Case::quick, kParts},
     {"merge_check", "merge --check a.exr b.exr", Made::together, Case::quick, kParts},
     {"jobs_list", "jobs commands.txt --folder out/jobs"},

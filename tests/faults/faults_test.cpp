@@ -70,7 +70,7 @@ class Faults : public testing::TestWithParam<Case> {
         std::ofstream(start / "scene.toml") << "[[mesh]]\nfile = \"cube.obj\"\nunit_mm = 1\n";
         std::ofstream(start / "sheet.gltf") << test::moving_sheet();
         std::ofstream(start / "commands.txt")
-            << "reference scene.toml --size 8x8 --samples 16 --probes 2 -o out/picture.exr\n";
+            << "reference scene.toml --size 8x8 --samples 16 --probes 6 -o out/picture.exr\n";
         if (!GetParam().prepare) return;
         const ProgramResult made =
             run_shell(in_folder(start) + "DERMIS=" DERMIS_PROGRAM " sh -c '" + GetParam().prepare + "'",

@@ -27,7 +27,7 @@ inline Scene lit_sphere() {
 }
 
 inline ReferenceSettings part_settings() {
-    return {.width = 11, .height = 9, .samples = kPartSamples, .probes = 4};
+    return {.width = 11, .height = 9, .samples = kPartSamples, .probes = 6};
 }
 
 inline PartFacts part_facts(SampleRange range) {

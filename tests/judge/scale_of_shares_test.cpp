@@ -85,7 +85,7 @@ TEST_F(ScaleOfShares, lambert_has_none_of_the_effect_on_every_scene) {
     ASSERT_TRUE(list);
     ComparisonSettings settings = comparison_settings(24, 24);
     settings.grid = kGrid;
-    settings.probes = 4;
+    settings.probes = 6;
     settings.noise = 0.9;
     settings.shadow_map_size = 1024;
     settings.frames = 0;

@@ -23,7 +23,7 @@ Scene sphere_scene(int levels) {
 std::vector<std::string> warnings_of(Scene scene, Integrator integrator) {
     scene.environment.kind = EnvironmentKind::none;
     const Result<ReferencePicture> picture = render_reference(
-        scene, {.integrator = integrator, .width = 4, .height = 4, .samples = 2, .probes = 4}, {}, nullptr);
+        scene, {.integrator = integrator, .width = 4, .height = 4, .samples = 2, .probes = 6}, {}, nullptr);
     EXPECT_TRUE(picture) << picture.error().message;
     return picture ? picture->warnings : std::vector<std::string>{};
 }

@@ -201,7 +201,7 @@ TEST(ReferencePicture, the_stated_variance_is_the_one_that_seeds_show) {
     const Scene scene = white_sphere(3);
     ReferenceSettings settings = small(Integrator::surface, 16);
     settings.width = settings.height = 12;
-    settings.probes = 4;
+    settings.probes = 6;
     constexpr int kRuns = 24;
     std::vector<double> sum(144), squares(144), stated(144);
     for (int run = 0; run < kRuns; ++run) {

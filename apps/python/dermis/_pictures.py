@@ -162,10 +162,10 @@ def reference(scene: Path, *, size: Size='512x512', integrator: str='surface', s
     """The reference of a scene, as `dermis reference`. The same seed gives the same picture.
 
     integrator: surface, walk, lambert. samples: at most so many a pixel (64; with noise as many as it needs).
-    noise: stop at this relative error, such as 0.01. probes: for each sample, even. profile: a name instead of
-    the scene's. medium: for walk, {"sigma_s": (r, g, b), "sigma_a": (r, g, b), "g": 0, "eta": 1.4} in 1/mm.
-    width_scale: factor on the lengths of profile or medium, 0 is Lambert. penumbra_mm: width of the key light's
-    shadow edge. camera, light, keys: as in render().
+    noise: stop at this relative error, such as 0.01. probes: for each sample, even; 6 at least, of walk 2.
+    profile: a name instead of the scene's. medium: for walk, {"sigma_s": (r, g, b), "sigma_a": (r, g, b),
+    "g": 0, "eta": 1.4} in 1/mm. width_scale: factor on the lengths of profile or medium, 0 is Lambert.
+    penumbra_mm: width of the key light's shadow edge. camera, light, keys: as in render().
     """
     options = given(size=size_text(size), integrator=integrator, noise=noise, profile=profile,
                     width_scale=width_scale, normalisation=normalisation, cavities=cavities, filter=filter,
