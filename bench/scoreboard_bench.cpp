@@ -30,12 +30,13 @@
 #include "dermis/render/complete_scene.h"
 #include "dermis/report/ratios.h"
 #include "dermis/scene/load_scene.h"
+#include "dermis/scene/scene_views.h"
 
 namespace {
 
 using namespace dermis;
 
-// A name behind a slash is a profile that the scene's skin takes: light, medium and dark skin.
+// SCENE[@VIEW][/PROFILE]. The profile is one that the scene's skin takes: light, medium and dark skin.
 constexpr const char* kScenes[] = {"spheres",
                                    "unit",
                                    "bust",
@@ -50,7 +51,25 @@ constexpr const char* kScenes[] = {"spheres",
                                    "face/openpbr_skin_1",
                                    "face/openpbr_skin_3",
                                    "face/openpbr_skin_6",
+                                   "head_scan@nose/openpbr_skin_1",
+                                   "head_scan@nose/openpbr_skin_3",
+                                   "head_scan@nose/openpbr_skin_6",
+                                   "head_scan@lips/openpbr_skin_1",
+                                   "head_scan@lips/openpbr_skin_3",
+                                   "head_scan@lips/openpbr_skin_6",
+                                   "head_scan@ear/openpbr_skin_1",
+                                   "head_scan@ear/openpbr_skin_3",
+                                   "head_scan@ear/openpbr_skin_6",
                                    "backlit"};
+// What follows an @ in a scene's name: a view of the head scan, 47 mm wide.
+struct NearView {
+    std::string_view name;
+    Vec3 target_mm;
+    float yaw_deg;
+};
+constexpr NearView kNearViews[] = {
+    {"nose", {0, 44, 115}, 14}, {"lips", {-1, 14, 112}, 14}, {"ear", {-75, 54, 9}, -75}};
+constexpr float kNearPitchDeg = 2, kNearDistanceMm = 420, kNearFovDeg = 6.4f;
 // Of each unit scene, whose subject fills the picture.
 constexpr int kCaseSize = 96;
 // What costs are modelled for: the frame of docs/performance.md.
@@ -63,9 +82,9 @@ constexpr const char* kText =
     "([definition](reference.md#comparing)): 1 for the\n"
     "reference, 0 for `lambert`, below 0 if worse than `lambert`; ± is half of the 95 %% interval. R, G, "
     "B: the\n"
-    "channels of the first. `bust/openpbr_skin_1` is the bust with that profile. Green and blue scatter a "
-    "few tenths of a millimetre, less than a pixel here. noise: the "
-    "reference is not\n"
+    "channels of the first. `bust/openpbr_skin_1` is the bust with that profile, `head_scan@nose` a view 47 "
+    "mm wide. noise: "
+    "the reference is not\n"
     "fine enough, or has not judged these settings. **Measured**: a frame over lambert's in one run, %s,\n"
     "%d x %d (unit scenes 96 x 96). **Modelled**: the same for a %s at %d x %d, a model\n"
     "([assumptions](performance.md)); empty where Mesa's RADV was not installed. Memory: tables and images "
@@ -155,12 +174,26 @@ Result<std::vector<Job>> jobs_of(const std::vector<std::string>& names) {
     return jobs;
 }
 
+Result<void> look_at(Scene& scene, std::string_view view) {
+    const auto found = std::ranges::find(kNearViews, view, &NearView::name);
+    if (found == std::end(kNearViews)) return Error{"@" + std::string(view) + ": no such view"};
+    scene.camera = place_camera({.target_mm = found->target_mm,
+                                 .yaw_deg = found->yaw_deg,
+                                 .pitch_deg = kNearPitchDeg,
+                                 .distance_mm = kNearDistanceMm,
+                                 .fov_deg = kNearFovDeg},
+                                scene.bounds_center_mm, scene.bounds_radius_mm);
+    return {};
+}
+
 Result<SubjectCase> scene_of(Job& job) {
     if (!job.made) {
         const size_t slash = job.name.find('/');
-        Result<Scene> scene =
-            load_scene(job.name.substr(0, slash), {.subjects = built_in_catalog().subjects});
+        const std::string head = job.name.substr(0, slash);
+        const size_t at = head.find('@');
+        Result<Scene> scene = load_scene(head.substr(0, at), {.subjects = built_in_catalog().subjects});
         if (!scene) return scene.error();
+        if (at != std::string::npos) DERMIS_TRY(look_at(*scene, std::string_view(head).substr(at + 1)));
         if (slash != std::string::npos) {
             const std::string profile = job.name.substr(slash + 1);
             if (const Result<Profile> found = find_profile(profile); !found) return found.error();
@@ -239,21 +272,26 @@ void print_what_is_left(size_t left, size_t all, double made_s, size_t made) {
     std::printf("\n");
 }
 
+ComparisonSettings settings_of(const Job& job, int size) {
+    const int side = job.made ? std::min(size, kCaseSize) : size;
+    ComparisonSettings settings = comparison_settings(side, side);
+    settings.noise = noise_of_size(side, side);
+    settings.frames = 2;
+    settings.reference.integrator = Integrator::walk;
+    settings.second = Integrator::surface;
+    return settings;
+}
+
 Result<void> make_board(gpu::Device& device, const std::filesystem::path& directory, int size,
                         std::vector<Job> jobs, const std::vector<Contestant>& contestants,
                         MergedRows replaced) {
     Result<std::vector<ScoreRow>> rows = kept_rows(directory / "scoreboard.csv");
     if (!rows) return rows.error();
-    ComparisonSettings settings = comparison_settings(size, size);
-    settings.frames = 2;
-    settings.reference.integrator = Integrator::walk;
-    settings.second = Integrator::surface;
     double made_s = 0;
     size_t made = 0;
     for (size_t i = 0; i < jobs.size(); ++i) {
-        ComparisonSettings own = settings;
         const bool with_cost = shows_cost(jobs[i]);  // scene_of() makes it
-        if (jobs[i].made) own.width = own.height = std::min(size, kCaseSize);
+        ComparisonSettings own = settings_of(jobs[i], size);
         const Clock::time_point start = Clock::now();
         const Result<SubjectCase> one = scene_of(jobs[i]);
         if (!one) {
@@ -320,7 +358,7 @@ int main(int argc, char** argv) {
     if (words.empty() || std::ranges::any_of(words, [](const auto& word) { return word.starts_with("-"); }))
         return fail("usage: scoreboard_bench DIRECTORY [SIZE] [SCENE...] [--techniques LIST] [--models]");
     if (models_only && words.size() < 2) return fail("--models needs the size that the board was made with");
-    const int size = words.size() > 1 ? std::atoi(words[1].c_str()) : 256;
+    const int size = words.size() > 1 ? std::atoi(words[1].c_str()) : 384;
     if (size < 16 || size > 4096) return fail("a size of 16 to 4096");
     std::vector<std::string> names(words.begin() + std::min<std::ptrdiff_t>(std::ssize(words), 2),
                                    words.end());

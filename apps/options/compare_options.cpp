@@ -77,18 +77,21 @@ Result<ComparisonSettings> CompareChoice::settings() const {
     DERMIS_TRY_ASSIGN(settings.rest_bakes, read_rest_bakes(rest_bakes));
     settings.noise = noise;
     settings.samples = samples;
-    settings.grid = int(std::lround(std::sqrt(double(std::max(samples_per_pixel, 0)))));
+    if (samples_per_pixel != 0)
+        settings.grid = int(std::lround(std::sqrt(double(std::max(samples_per_pixel, 0)))));
+    const int points = settings.grid * settings.grid;
     for (const Result<void>& in_range : {check_number("--timed-frames", timed_frames, kTimedFramesRange),
                                          check_number("--noise", noise, kReferenceNoiseRange),
                                          check_number("--samples", samples, kReferenceSamplesRange)})
         if (!in_range) return in_range.error();
-    if (settings.grid < 1 || settings.grid > kMostGrid || settings.grid * settings.grid != samples_per_pixel)
+    if (settings.grid < 1 || settings.grid > kMostGrid ||
+        (samples_per_pixel != 0 && points != samples_per_pixel))
         return Error{"--samples-per-pixel " + std::to_string(samples_per_pixel) +
                      ": a square number, 1, 4, 9, 16 ... " + std::to_string(kMostGrid * kMostGrid)};
     // Each half of the reference has two samples a pixel or more.
-    if (samples < 2 * samples_per_pixel)
+    if (samples < 2 * points)
         return Error{"--samples " + std::to_string(samples) + ": at least twice --samples-per-pixel, " +
-                     std::to_string(2 * samples_per_pixel)};
+                     std::to_string(2 * points)};
     const std::vector<std::string> integrators = {"both", "walk", "surface"},
                                    ambients = {"renderer", "traced"};
     if (std::ranges::find(integrators, integrator) == integrators.end())

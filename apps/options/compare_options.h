@@ -24,8 +24,8 @@ struct CompareChoice {
     std::string integrator = "both", ambient = "renderer";
     ComparisonSettings defaults;
     double noise = defaults.noise;
-    int samples = defaults.samples, samples_per_pixel = defaults.grid * defaults.grid,
-        timed_frames = defaults.frames;
+    int samples = defaults.samples, timed_frames = defaults.frames;
+    int samples_per_pixel = 0;  ///< a square; 0: by the size, grid_of_size()
 
     /// Reads the pictures.
     [[nodiscard]] Result<ComparisonSettings> settings() const;

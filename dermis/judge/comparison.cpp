@@ -322,8 +322,18 @@ Result<void> draw_techniques(gpu::Device& device, Renderer& renderer, const Cata
 
 }  // namespace
 
+int grid_of_size(int width, int height) {
+    constexpr int kPointsAcross = 768;
+    const int side = std::max({width, height, 1});
+    return std::clamp((kPointsAcross + side - 1) / side, 2, 6);
+}
+
+double noise_of_size(int width, int height) {
+    return ComparisonSettings{}.noise * std::max(std::sqrt(double(width) * height) / 128, 1.0);
+}
+
 ComparisonSettings comparison_settings(int width, int height) {
-    ComparisonSettings settings{.width = width, .height = height};
+    ComparisonSettings settings{.width = width, .height = height, .grid = grid_of_size(width, height)};
     settings.reference = {.width = width,
                           .height = height,
                           .samples = 256,

@@ -32,7 +32,7 @@ struct ComparisonSettings {
     /// The picture is made with this shadow map, so that a technique is not charged for the coarser one's
     /// bias; frames are timed with the renderer's own.
     int shadow_map_size = 4096;
-    int grid = 6;        ///< both sides take grid x grid points of a pixel; docs/reference.md says how many
+    int grid = 6;        ///< both sides take grid x grid points of a pixel; grid_of_size()
     double noise = 0.2;  ///< of the effect's RMS at which the reference is fine enough
     int samples = 2048;  ///< of the reference a pixel, at most
     /// Probes per sample of `surface`. The bias of its quotient is below a hundredth of the effect.
@@ -55,6 +55,14 @@ struct ComparisonSettings {
 
 /// The row's id.
 inline constexpr std::string_view kExactId = "exact";
+
+/// Side of the grid of points in a pixel, 2 to 6: about 768 points over the longer side of the picture. More
+/// of them in a large picture would only make the first shares late.
+[[nodiscard]] int grid_of_size(int width, int height);
+
+/// The noise of one pixel at which shares of a picture of this size have the intervals that 0.2 gives them at
+/// 128 x 128: a share's interval depends on all pixels together. 0.2 where the picture is smaller.
+[[nodiscard]] double noise_of_size(int width, int height);
 
 /// Reference settings that show what the renderer shows, at the comparison's size.
 [[nodiscard]] ComparisonSettings comparison_settings(int width, int height);

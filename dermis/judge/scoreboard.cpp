@@ -209,7 +209,8 @@ std::vector<ScoreRow> merged(std::vector<ScoreRow> kept, const std::vector<Score
 
 std::string scoreboard_markdown(const std::vector<ScoreRow>& all) {
     const std::vector<ScoreRow> heads = rows_of_heads(all), rows = rows_without(all, heads);
-    std::string text = heads_markdown(heads);
+    const HeadsAndViews both = apart(heads);
+    std::string text = heads_markdown(both.heads, "Heads") + heads_markdown(both.views, "Near views");
     std::vector<std::string> sets;
     for (const std::string& scene : scenes_of(rows)) {
         const std::string set = set_of(rows, scene);
@@ -225,10 +226,12 @@ std::string scoreboard_markdown(const std::vector<ScoreRow>& all) {
 
 Plot scoreboard_plot(const std::vector<ScoreRow>& all) {
     const std::vector<ScoreRow> heads = rows_of_heads(all), rows = rows_without(all, heads);
+    const HeadsAndViews both = apart(heads);
     Plot plot{
         .title = "Captured share over cost",
         .caption = "1: all that scattering does to the picture, 0: none of it; below -0.5 drawn at -0.5",
-        .panels = heads_panels(heads)};
+        .panels = heads_panels(both.heads, "heads")};
+    std::ranges::move(heads_panels(both.views, "near views"), std::back_inserter(plot.panels));
     for (const std::string& scene : scenes_of(rows))
         if (set_of(rows, scene).empty()) plot.panels.push_back(scene_panel(scene, rows_of(rows, scene)));
     return plot;

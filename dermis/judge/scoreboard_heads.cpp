@@ -127,26 +127,33 @@ std::vector<HeadRow> head_rows(std::span<const ScoreRow> rows) {
     return means;
 }
 
-std::string heads_markdown(std::span<const ScoreRow> rows) {
+HeadsAndViews apart(const std::vector<ScoreRow>& rows) {
+    HeadsAndViews both;
+    for (const ScoreRow& row : rows)
+        (row.scene.find('@') == std::string::npos ? both.heads : both.views).push_back(row);
+    return both;
+}
+
+std::string heads_markdown(std::span<const ScoreRow> rows, std::string_view title) {
     if (rows.empty()) return "";
     const std::vector<std::string> scenes = sorted_scenes_of(rows);
     const std::vector<HeadRow> means = head_rows(rows);
     return fmt::format(
-               "## Heads\n\nMeans over {} scenes: {}. A number in brackets: of how many scenes, where the "
+               "## {}\n\nMeans over {} scenes: {}. A number in brackets: of how many scenes, where the "
                "reference of the others is too\nnoisy for it.\n\n",
-               scenes.size(), fmt::join(scenes, ", ")) +
+               title, scenes.size(), fmt::join(scenes, ", ")) +
            means_table(means, scenes.size()) + by_scene_table(rows, means, &ScoreRow::walk, "walk") +
            by_scene_table(rows, means, &ScoreRow::surface, "surface");
 }
 
-std::vector<PlotPanel> heads_panels(std::span<const ScoreRow> rows) {
+std::vector<PlotPanel> heads_panels(std::span<const ScoreRow> rows, const std::string& name) {
     const std::vector<HeadRow> means = head_rows(rows);
     const bool modelled =
         std::ranges::all_of(means, [](const HeadRow& row) { return row.model_ratio.has_value(); });
     std::vector<PlotPanel> panels;
-    for (const auto& [name, share] : {std::pair("heads, share of walk", &HeadRow::walk),
-                                      {"heads, share of surface", &HeadRow::surface}}) {
-        PlotPanel panel = share_panel(name, modelled);
+    for (const auto& [of, share] :
+         {std::pair(", share of walk", &HeadRow::walk), {", share of surface", &HeadRow::surface}}) {
+        PlotPanel panel = share_panel(name + of, modelled);
         for (const HeadRow& row : means)
             if ((row.*share).count > 0)
                 add_share(panel, row.technique, modelled ? *row.model_ratio : row.time_ratio,

@@ -36,11 +36,17 @@ struct HeadRow {
 /// `rows` of heads alone; a row for each technique that is in all scenes of them, best `walk` first.
 [[nodiscard]] std::vector<HeadRow> head_rows(std::span<const ScoreRow> rows);
 
-/// Means, then shares by scene. Empty without rows.
-[[nodiscard]] std::string heads_markdown(std::span<const ScoreRow> rows);
+/// Rows of heads, and of near views of them ("head_scan@nose/openpbr_skin_1").
+struct HeadsAndViews {
+    std::vector<ScoreRow> heads, views;
+};
+[[nodiscard]] HeadsAndViews apart(const std::vector<ScoreRow>& rows);
 
-/// Mean share of each reference over the mean cost.
-[[nodiscard]] std::vector<PlotPanel> heads_panels(std::span<const ScoreRow> rows);
+/// Means, then shares by scene. Empty without rows.
+[[nodiscard]] std::string heads_markdown(std::span<const ScoreRow> rows, std::string_view title);
+
+/// Mean share of each reference over the mean cost; `name` is what their titles start with.
+[[nodiscard]] std::vector<PlotPanel> heads_panels(std::span<const ScoreRow> rows, const std::string& name);
 
 /// A panel without series, and a point of a technique added to it; a share below kLowestPlotted is drawn
 /// there.

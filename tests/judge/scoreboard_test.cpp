@@ -179,6 +179,16 @@ TEST(Scoreboard, heads_in_several_skins_are_means_and_columns) {
     EXPECT_THAT(scoreboard_markdown(rows), HasSubstr("| `wrap` | 0.25 (1) | 0.25 |"));
 }
 
+TEST(Scoreboard, near_views_of_a_head_have_a_table_of_their_own) {
+    std::vector<ScoreRow> rows = {row("bust", "wrap", 0.25), row("bust/dark", "wrap", 0.75),
+                                  row("bust@nose/dark", "wrap", 0.5), row("bust@nose/pale", "wrap", 0.25)};
+    for (ScoreRow& r : rows) r.walk = r.surface;
+    const std::string text = scoreboard_markdown(rows);
+    EXPECT_THAT(text, HasSubstr("## Heads\n\nMeans over 2 scenes: bust, bust/dark."));
+    EXPECT_THAT(text, HasSubstr("## Near views\n\nMeans over 2 scenes: bust@nose/dark, bust@nose/pale."));
+    EXPECT_EQ(scoreboard_plot(rows).panels.size(), 4u);
+}
+
 TEST(Scoreboard, all_it_lists_can_be_set) {
     EXPECT_GT(scoreboard_contestants(built_in_catalog().techniques).size(),
               built_in_catalog().techniques.size());

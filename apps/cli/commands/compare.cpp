@@ -224,10 +224,9 @@ void add_compare_command(CommandLine& line) {
         ->add_option("--ambient", options->choice.ambient,
                      "environment in the reference: renderer (the renderer's approximation) or traced")
         ->capture_default_str();
-    command
-        ->add_option("--samples-per-pixel", options->choice.samples_per_pixel, {1, 256},
-                     "sample points in each pixel, the same in both pictures; a square number")
-        ->capture_default_str();
+    command->add_option("--samples-per-pixel", options->choice.samples_per_pixel, {1, 256},
+                        "sample points in each pixel, the same in both pictures; a square number "
+                        "(4 to 36, by the size)");
     command
         ->add_option("--noise", options->choice.noise, kReferenceNoiseRange,
                      "noise at which the reference stops, over the effect of scattering")

@@ -90,7 +90,7 @@ class Comparison:
 
 def compare(scene: Path, techniques: str | Iterable[str] | None=None, *, size: Size | None=None,
             pictures: Mapping[str, tuple[ArrayLike, ArrayLike]] | None=None,
-            integrator: str='both', ambient: str='renderer', samples_per_pixel: int=36, noise: float=0.2,
+            integrator: str='both', ambient: str='renderer', samples_per_pixel: int | None=None, noise: float=0.2,
             samples: int=2048, timed_frames: int=5, device: str='', camera: Words=None, light: Words=None, keys: Words=None,
             progress: Callable[[float], object] | None=None) -> Comparison | list[Comparison]:
     """Techniques compared with the reference of the same scene, as `dermis compare`.
@@ -100,9 +100,9 @@ def compare(scene: Path, techniques: str | Iterable[str] | None=None, *, size: S
     They get rows "picture[NAME]". size: pixels (512x512, of a set
     of test scenes 96x96). noise: of the reference at which it stops, over the effect of scattering. samples:
     of the reference a pixel, at most. samples_per_pixel: points of a pixel that both sides take, a square
-    number. timed_frames: how many are timed. integrator: "walk", "surface", or "both": rows have both shares, walk_captured
-    and captured, and the pictures are of walk. The references are kept in the cache. Returns a Comparison; of
-    a set of scenes, such as "unit", a list.
+    number (4 to 36, by the size). timed_frames: how many are timed. integrator: "walk", "surface", or "both":
+    rows have both shares, walk_captured and captured, and the pictures are of walk. The references are kept in
+    the cache. Returns a Comparison; of a set of scenes, such as "unit", a list.
     """
     pictures = dict(pictures or {})
     if pictures and size is None:
@@ -110,10 +110,10 @@ def compare(scene: Path, techniques: str | Iterable[str] | None=None, *, size: S
         size = (width, height)
     listed = techniques if isinstance(techniques, str) else ",".join(techniques or [])
     least, most = -2**31, 2**31 - 1
+    points = None if samples_per_pixel is None else whole(samples_per_pixel, "samples_per_pixel", least, most)
     options = given(size=None if size is None else size_text(size), integrator=integrator, ambient=ambient,
-                    samples_per_pixel=whole(samples_per_pixel, "samples_per_pixel", least, most), noise=noise,
-                    samples=whole(samples, "samples", least, most), timed_frames=whole(timed_frames, "timed_frames", least, most),
-                    device=device)
+                    samples_per_pixel=points, noise=noise, samples=whole(samples, "samples", least, most),
+                    timed_frames=whole(timed_frames, "timed_frames", least, most), device=device)
     arguments = scene_arguments(scene, keys, camera, light)
     made = [Comparison(one) for one in _dermis.compare(arguments, listed, pictures, options, progress)]
     return made[0] if len(made) == 1 else made
