@@ -68,6 +68,7 @@ TEST_F(Info, built_in_meshes_are_meshes) {
     const ProgramResult result = info("builtin:spheres");
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("sphere_16mm"));
+    EXPECT_THAT(info("builtin:bust").out, HasSubstr("albedo (made by code)\n"));
     const ProgramResult wrong = info("builtin:sphere");
     EXPECT_EQ(wrong.exit_code, 1);
     EXPECT_THAT(wrong.err, HasSubstr("did you mean 'spheres'?"));

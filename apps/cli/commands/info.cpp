@@ -35,6 +35,7 @@ struct NamedMesh {
 
 const char* state_of(const ImageSource& image) {
     if (!image.encoded.empty()) return "embedded";
+    if (!image.pixels.empty()) return "made by code";
     std::error_code ec;
     return std::filesystem::is_regular_file(image.name, ec) ? "found" : "missing";
 }
