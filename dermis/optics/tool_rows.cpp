@@ -185,17 +185,15 @@ ToolKey length_key(std::string_view name, double value, std::string_view unit, s
     return {name, 1, {value}, kMinLength, kMaxLength, unit, meaning};
 }
 
-constexpr std::string_view kAlbedoInMap = "the albedo (it is in the base colour map; read as 1)";
-constexpr std::string_view kWalkBoundary =
-    "albedo inverted for an index-matched half-space; light enters diffusely";
+constexpr std::string_view kAlbedoInMap = "the albedo (read as 1; the base colour map has it)";
+constexpr std::string_view kWalkBoundary = "index-matched half-space, diffuse light";
 
 ToolRow faceworks() {
     return {{ToolId::faceworks,
              "faceworks",
              "width of a blur: the standard deviation of the widest of six Gaussians",
              "none: a normalised blur of irradiance",
-             "the albedo, and any shape but that of GPU Gems 3: red's "
-             "mean radius is kept, green and blue follow",
+             "the albedo; the shape becomes that of GPU Gems 3, with red's mean radius",
              {length_key("diffusionRadius", 2.7, "mm",
                          "2.7 mm is the skin of GPU Gems 3; divide by the mm in a "
                          "world unit")}},
@@ -232,7 +230,7 @@ ToolRow unreal() {
     return {{ToolId::unreal,
              "unreal",
              "diffuse mean free path 1/sigma_tr (Enable Mean Free Path off)",
-             "light enters perpendicularly (searchlight), index-matched",
+             "index-matched, perpendicular light (searchlight)",
              "",
              {color_key("surface_albedo", {0.91058, 0.338275, 0.2718}, "as the base colour, on average"),
               ratio_key("mean_free_path_color", {1, 0.088964, 0.072095}, "per channel, the largest 1"),
@@ -311,12 +309,12 @@ const std::vector<ToolRow>& tool_rows() {
         unreal(),
         blender<four_pi_mean_free_path_per_d>(ToolId::blender_burley, "blender_burley",
                                               "4 pi times the mean free path 1/sigma_t",
-                                              "light enters diffusely, index-matched"),
+                                              "index-matched, diffuse light"),
         blender<four_pi_mean_free_path_per_d>(ToolId::blender_random_walk, "blender_random_walk",
                                               "4 pi times the mean free path 1/sigma_t", kWalkBoundary),
-        blender<diffuse_mean_free_path_per_d>(
-            ToolId::blender_random_walk_skin, "blender_random_walk_skin", "diffuse mean free path 1/sigma_tr",
-            "refractive: the albedo of a dipole of the material's index of refraction"),
+        blender<diffuse_mean_free_path_per_d>(ToolId::blender_random_walk_skin, "blender_random_walk_skin",
+                                              "diffuse mean free path 1/sigma_tr",
+                                              "refractive: the albedo of a dipole with the material's index"),
         openpbr(),
         gltf(),
         pbrt(),
