@@ -1,7 +1,9 @@
 #pragma once
 // The skin's shading functions as a tree: what the parser makes of the GLSL in shaders/include/skin, and what
 // the printers read. The subset has functions and constants of float, vec2, vec3, vec4, int and bool; if,
-// for and return; operators, the ternary, calls and swizzles. Comments belong to what follows them.
+// for over a counter and return; operators, the ternary, calls and swizzles. It has no overloading, `out`
+// parameters, assignment to a parameter or to several components at once, structures, arrays, matrices or
+// textures. Comments belong to what follows them.
 
 #include <optional>
 #include <string>
