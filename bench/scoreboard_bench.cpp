@@ -72,6 +72,8 @@ constexpr NearView kNearViews[] = {
 constexpr float kNearPitchDeg = 2, kNearDistanceMm = 420, kNearFovDeg = 6.4f;
 // Of each unit scene, whose subject fills the picture.
 constexpr int kCaseSize = 96;
+// A larger picture reaches noise_of_size() with fewer walks a sample than a comparison takes.
+constexpr int kCoarseSide = 128, kFewWalks = 6;
 // What costs are modelled for: the frame of docs/performance.md.
 constexpr const char* kModelChip = "navi21";
 constexpr int kModelWidth = 1920, kModelHeight = 1080;
@@ -276,6 +278,7 @@ ComparisonSettings settings_of(const Job& job, int size) {
     const int side = job.made ? std::min(size, kCaseSize) : size;
     ComparisonSettings settings = comparison_settings(side, side);
     settings.noise = noise_of_size(side, side);
+    if (!job.made && side > kCoarseSide) settings.walks = kFewWalks;
     settings.frames = 2;
     settings.reference.integrator = Integrator::walk;
     settings.second = Integrator::surface;

@@ -31,9 +31,10 @@ Channel channel_of(double slope_mm, double length_mm, double albedo) {
     return {slope_mm, length_mm, length_mm - slope_mm * albedo / (1 - albedo)};
 }
 
-double gain_of(const Channel& form, double curvature_per_mm) {
-    const double h = curvature_per_mm * form.length_mm;
-    const double v = curvature_per_mm > 0 ? curvature_per_mm / std::sqrt(1 + h * h) : curvature_per_mm;
+// `concave`: the factor on the length on concave skin, 0 of a ball-shaped cavity.
+double gain_of(const Channel& form, double curvature_per_mm, double concave) {
+    const double h = curvature_per_mm * form.length_mm * (curvature_per_mm < 0 ? concave : 1);
+    const double v = curvature_per_mm / std::sqrt(1 + h * h);
     const double rest = 1 - form.bend_mm * v;
     return rest > 0 ? std::max(1 + form.slope_mm * v / rest, 0.0) : 0;
 }
@@ -42,7 +43,7 @@ double misfit(const Channel& form, std::span<const GainSample> samples, size_t c
     double sum = 0;
     for (const GainSample& sample : samples) {
         const double wanted = sample.gain[c];
-        const double off = (gain_of(form, sample.curvature_per_mm) - wanted) / std::max(1.0, wanted);
+        const double off = (gain_of(form, sample.curvature_per_mm, 0) - wanted) / std::max(1.0, wanted);
         sum += off * off;
     }
     return sum;
@@ -71,7 +72,7 @@ Channel fit_channel(std::span<const GainSample> samples, size_t c, double albedo
 
 double gain(const GainForm& form, int channel, double curvature_per_mm) {
     const auto c = size_t(channel);
-    return gain_of({form.slope_mm[c], form.length_mm[c], form.bend_mm[c]}, curvature_per_mm);
+    return gain_of({form.slope_mm[c], form.length_mm[c], form.bend_mm[c]}, curvature_per_mm, kGainFold);
 }
 
 GainForm fit_gain_form(std::span<const GainSample> samples, const Rgb& albedo) {

@@ -8,9 +8,13 @@
 
 namespace dermis::inline optics {
 
-/// With v = H on concave skin (H < 0, in 1/mm) and v = H / sqrt(1 + (length H)^2) on convex skin:
+/// With H the mean curvature in 1/mm, above 0 on convex skin, and v = H / sqrt(1 + h^2), where h = length H
+/// on convex and kGainFold length H on concave skin:
 ///
 ///     gain(H) = 1 + slope v / (1 - bend v)
+///
+/// A ball-shaped cavity has v = H. Concave skin of a head is in folds, narrower than the ways of the light,
+/// and loses less.
 ///
 /// `slope` is the first order in curvature. Of all light that enters a body smaller than a path nothing is
 /// absorbed: gain(infinity) = 1 / albedo, which sets `bend` by `slope` and `length`.
@@ -18,7 +22,10 @@ struct GainForm {
     Rgb slope_mm = {0, 0, 0}, length_mm = {0, 0, 0}, bend_mm = {0, 0, 0};
 };
 
-/// 0 upwards. Walks in balls and cavities of 2 mm radius or more differ by 6 % at most (tested).
+/// By the captured shares of heads in light to dark skin (docs/figures.md).
+inline constexpr double kGainFold = 5;
+
+/// 0 upwards. Walks in balls of 2 mm radius or more differ by 6 % at most (tested).
 [[nodiscard]] double gain(const GainForm& form, int channel, double curvature_per_mm);
 
 /// A gain measured at one curvature.
@@ -27,8 +34,8 @@ struct GainSample {
     Rgb gain = {1, 1, 1};
 };
 
-/// Least squares over the samples, relative to the larger of 1 and the gain. `albedo`: what flat skin returns
-/// of diffuse light that entered, 0..1; at 0 and 1 the gain is 1.
+/// Least squares over samples of balls and ball-shaped cavities, relative to the larger of 1 and the gain.
+/// `albedo`: what flat skin returns of diffuse light that entered, 0..1; at 0 and 1 the gain is 1.
 [[nodiscard]] GainForm fit_gain_form(std::span<const GainSample> samples, const Rgb& albedo);
 
 /// The slope that diffusion predicts, in mm: 4 D / ((1 - r) (1 + z / L)^2 R) with D = 1 / (3 sigma_t'), L the

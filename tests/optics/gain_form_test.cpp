@@ -36,9 +36,21 @@ TEST(GainForm, RisesWithCurvatureFromZeroToOneOverTheAlbedo) {
     }
 }
 
+TEST(GainForm, FoldsLoseLessThanCavities) {
+    for (int c = 0; c < 3; ++c) {
+        const auto i = size_t(c);
+        const GainForm form = example();
+        for (const double k : {-0.05, -0.2, -1.0}) {
+            const double cavity = 1 + form.slope_mm[i] * k / (1 - form.bend_mm[i] * k);
+            EXPECT_GT(gain(form, c, k), cavity + 0.001) << k;
+        }
+        EXPECT_GT(gain(form, c, -10), 1 - 1.01 * form.slope_mm[i] / (kGainFold * form.length_mm[i]));
+    }
+}
+
 TEST(GainForm, TheFitFindsTheFormThatMadeTheSamples) {
     std::vector<GainSample> samples;
-    for (const double k : {-0.5, -0.25, -0.1, 0.1, 0.25, 0.5}) {
+    for (const double k : {0.02, 0.05, 0.1, 0.25, 0.5}) {
         samples.push_back({.curvature_per_mm = k});
         for (int c = 0; c < 3; ++c) samples.back().gain[size_t(c)] = gain(example(), c, k);
     }

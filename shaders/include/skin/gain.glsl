@@ -4,10 +4,14 @@
 #ifndef DERMIS_SKIN_GAIN_GLSL
 #define DERMIS_SKIN_GAIN_GLSL
 
+// Concave skin is in folds, narrower than the ways of the light, which average over the skin beside them: there the
+// curvature counts less, as that of convex skin with ways so many times longer. As in dermis/optics/gain_form.h.
+const float kGainFold = 5.0;
+
 // curvature_per_mm: the mean curvature, above 0 on convex skin. Convex skin of a small radius returns at most
 // 1 / albedo.
 vec3 gain_of_curvature(float curvature_per_mm, vec3 slope_mm, vec3 length_mm, vec3 bend_mm) {
-    vec3 h = max(curvature_per_mm, 0.0) * length_mm;
+    vec3 h = (curvature_per_mm < 0.0 ? kGainFold * curvature_per_mm : curvature_per_mm) * length_mm;
     vec3 v = curvature_per_mm * inversesqrt(1.0 + h * h);
     return max(1.0 + slope_mm * v / max(1.0 - bend_mm * v, 1e-3), vec3(0.0));
 }

@@ -1,0 +1,40 @@
+// A character as people have them: many materials, no maps of colour.
+
+#include <filesystem>
+
+#include "render/render_test.h"
+#include "mesh/mesh_files.h"
+
+using namespace dermis;
+
+namespace {
+
+class OwnHead : public RenderTest {};
+
+// Skin's base colour has more red than green; eyes and teeth have as much blue as green.
+std::string greener_than_red(const Image& light) {
+    constexpr float kRelative = 0.04f, kLeast = 0.03f, kLeastOverBlue = 0.01f;
+    std::string places;
+    for (int y = 0; y < light.height; ++y)
+        for (int x = 0; x < light.width; ++x) {
+            const float r = light.at(x, y, 0), g = light.at(x, y, 1), b = light.at(x, y, 2);
+            if (light.at(x, y, 3) > 0 && g > kLeast && g - b > kLeastOverBlue && g > (1 + kRelative) * r)
+                places += " " + std::to_string(x) + "," + std::to_string(y);
+        }
+    return places;
+}
+
+}  // namespace
+
+// Red scatters farthest: in folds and at edges of shadows a technique can take more of it away than walks do.
+TEST_F(OwnHead, no_skin_is_greener_than_red) {
+    const std::filesystem::path file = test::asset("ict_face/ict_moving.glb");
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is needed";
+    const Scene scene = load(file.string());
+    Renderer renderer = make_renderer(scene);
+    for (const Technique& technique : built_in_catalog().techniques) {
+        const Image light = radiance(renderer, technique, ParameterValues(technique.parameters),
+                                     {.width = 768, .height = 768});
+        EXPECT_EQ(greener_than_red(light), "") << technique.id;
+    }
+}
