@@ -68,25 +68,43 @@ std::string means_table(const std::vector<HeadRow>& means, size_t scenes) {
 
 using Share = std::optional<Captured> ScoreRow::*;
 
-std::string by_scene_table(std::span<const ScoreRow> rows, const std::vector<HeadRow>& means, Share which,
+// "openpbr_skin_1" of "bust/openpbr_skin_1".
+std::string skin_of(const std::string& scene) {
+    const size_t slash = scene.find('/');
+    return slash == std::string::npos ? "own profile" : scene.substr(slash + 1);
+}
+
+// Heads, then skins, without repetition.
+std::vector<std::string> groups_of(const std::vector<std::string>& scenes) {
+    std::vector<std::string> groups;
+    for (std::string (*name_of)(const std::string&) : {head_of, skin_of})
+        for (const std::string& scene : scenes)
+            if (const std::string name = name_of(scene); std::ranges::find(groups, name) == groups.end())
+                groups.push_back(name);
+    return groups;
+}
+
+std::string by_group_table(std::span<const ScoreRow> rows, const std::vector<HeadRow>& means, Share which,
                            std::string_view judge) {
-    const std::vector<std::string> scenes = sorted_scenes_of(rows);
     if (std::ranges::none_of(rows, [&](const ScoreRow& row) { return (row.*which).has_value(); })) return "";
-    std::string text = fmt::format("Captured share of `{}` by scene.\n\n| technique |", judge),
+    const std::vector<std::string> groups = groups_of(sorted_scenes_of(rows));
+    std::string text = fmt::format(
+                    "Captured share of `{}`: means of each head and of each skin.\n\n| technique |", judge),
                 rule = "|---|";
-    for (const std::string& scene : scenes) {
-        text += " " + scene + " |";
+    for (const std::string& group : groups) {
+        text += " " + group + " |";
         rule += "---|";
     }
     text += "\n" + rule + "\n";
     for (const HeadRow& mean : means) {
         text += "| " + technique_cell(mean.technique, mean.settings) + " |";
-        for (const std::string& scene : scenes) {
-            const auto row = std::ranges::find_if(rows, [&](const ScoreRow& r) {
-                return r.scene == scene && r.technique == mean.technique && r.settings == mean.settings;
-            });
-            const std::optional<Captured> share = row == rows.end() ? std::nullopt : (*row).*which;
-            text += share ? " " + share_text(share->all) + " |" : " |";
+        for (const std::string& group : groups) {
+            MeanShare share;
+            for (const ScoreRow& row : rows)
+                if (row.technique == mean.technique && row.settings == mean.settings && (row.*which) &&
+                    (head_of(row.scene) == group || skin_of(row.scene) == group))
+                    add(share, (row.*which)->all);
+            text += " " + mean_text(share, size_t(share.judged)) + " |";
         }
         text += "\n";
     }
@@ -142,8 +160,8 @@ std::string heads_markdown(std::span<const ScoreRow> rows, std::string_view titl
                "## {}\n\nMeans over {} scenes: {}. A number in brackets: of how many scenes, where the "
                "reference of the others is too\nnoisy for it.\n\n",
                title, scenes.size(), fmt::join(scenes, ", ")) +
-           means_table(means, scenes.size()) + by_scene_table(rows, means, &ScoreRow::walk, "walk") +
-           by_scene_table(rows, means, &ScoreRow::surface, "surface");
+           means_table(means, scenes.size()) + by_group_table(rows, means, &ScoreRow::walk, "walk") +
+           by_group_table(rows, means, &ScoreRow::surface, "surface");
 }
 
 std::vector<PlotPanel> heads_panels(std::span<const ScoreRow> rows, const std::string& name) {

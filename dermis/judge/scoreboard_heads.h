@@ -1,6 +1,6 @@
 #pragma once
 // Heads of the scoreboard: scenes that are judged in several skins ("bust", "bust/openpbr_skin_1" ...), as
-// means over all of them and as one table of shares for each reference.
+// means over all of them and, for each reference, over each head and each skin.
 
 #include <span>
 #include <string>
@@ -42,7 +42,7 @@ struct HeadsAndViews {
 };
 [[nodiscard]] HeadsAndViews apart(const std::vector<ScoreRow>& rows);
 
-/// Means, then shares by scene. Empty without rows.
+/// Means over all scenes, then over each head and each skin. Empty without rows.
 [[nodiscard]] std::string heads_markdown(std::span<const ScoreRow> rows, std::string_view title);
 
 /// Mean share of each reference over the mean cost; `name` is what their titles start with.

@@ -165,18 +165,19 @@ TEST(Scoreboard, heads_in_several_skins_are_means_and_columns) {
     const std::string text = scoreboard_markdown(rows);
     EXPECT_THAT(text, HasSubstr("Means over 2 scenes: bust, bust/dark."));
     EXPECT_THAT(text, HasSubstr("| `wrap` | 0.38 | 0.25 | 0.00 | 0.00 | 0.00 | 0.50 | 1.25 | 2.50 | 0 |"));
-    EXPECT_THAT(text, HasSubstr("| `wrap` | 0.25 | 0.50 |"));
-    EXPECT_THAT(text, HasSubstr("| `wrap` | 0.25 | 0.75 |"));
+    EXPECT_THAT(text, HasSubstr("| technique | bust | own profile | dark |"));
+    EXPECT_THAT(text, HasSubstr("| `wrap` | 0.38 | 0.25 | 0.50 |"));
+    EXPECT_THAT(text, HasSubstr("| `wrap` | 0.50 | 0.25 | 0.75 |"));
     EXPECT_THAT(text, HasSubstr("## ear"));
     EXPECT_EQ(scoreboard_plot(rows).panels.size(), 3u);
 
     // A file may have a technique twice in one scene and not in another.
     std::vector<ScoreRow> uneven = {row("bust", "wrap", 0.25), row("bust", "wrap", 0.5),
                                     row("bust/dark", "lambert", 0)};
-    EXPECT_THAT(scoreboard_markdown(uneven), HasSubstr("| `wrap` | 0.25 | |"));
+    EXPECT_THAT(scoreboard_markdown(uneven), HasSubstr("| `wrap` | 0.38 | 0.38 |  |"));
 
     rows[1].walk->all.error = 1;
-    EXPECT_THAT(scoreboard_markdown(rows), HasSubstr("| `wrap` | 0.25 (1) | 0.25 |"));
+    EXPECT_THAT(scoreboard_markdown(rows), HasSubstr("| `wrap` | 0.25 (1) | 0.25 | noise |"));
 }
 
 TEST(Scoreboard, near_views_of_a_head_have_a_table_of_their_own) {

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "render/render_test.h"
 #include "mesh/mesh_files.h"
+#include "render/render_test.h"
 
 using namespace dermis;
 
