@@ -5,13 +5,16 @@
 namespace dermis::inline mesh {
 namespace {
 
-// The computed normal of every vertex.
-std::vector<Vec3> computed_normals(std::span<const Vec3> positions_mm, const Mesh& mesh) {
-    Mesh bare;
-    bare.positions_mm.assign(positions_mm.begin(), positions_mm.end());
-    bare.indices = mesh.indices;
-    complete_normals(bare);
-    return bare.normals;
+// Vertices of the triangles that have moved.
+std::vector<uint8_t> around_moved(std::span<const Vec3> before_mm, const Mesh& mesh) {
+    std::vector<uint8_t> moved(before_mm.size());
+    for (size_t i = 0; i < moved.size(); ++i) moved[i] = !(before_mm[i] == mesh.positions_mm[i]);
+    std::vector<uint8_t> around(before_mm.size());
+    for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const uint32_t* v = &mesh.indices[i];
+        if (moved[v[0]] | moved[v[1]] | moved[v[2]]) around[v[0]] = around[v[1]] = around[v[2]] = 1;
+    }
+    return around;
 }
 
 // The smallest rotation from one unit vector to another (Moller and Hughes 1999, "Efficiently Building a
@@ -29,13 +32,23 @@ struct Turn {
 }  // namespace
 
 void turn_normals(std::span<const Vec3> before_mm, Mesh& mesh) {
+    SmoothNormals smooth(mesh.indices);
+    turn_normals(before_mm, mesh, smooth);
+}
+
+void turn_normals(std::span<const Vec3> before_mm, Mesh& mesh, SmoothNormals& smooth) {
     constexpr float kOpposite = -0.999f;  // no smallest rotation: such a vertex keeps its normal
-    const std::vector<Vec3> before = computed_normals(before_mm, mesh),
-                            after = computed_normals(mesh.positions_mm, mesh);
+    Weld weld_before = weld_positions(before_mm), weld_after = weld_positions(mesh.positions_mm);
+    // Where other positions coincide, normals change without a move.
+    std::vector<uint8_t> wanted;
+    if (weld_before.ids == weld_after.ids) wanted = around_moved(before_mm, mesh);
+    const std::vector<Vec3> before = smooth.of_vertices(before_mm, std::move(weld_before), wanted),
+                            after = smooth.of_vertices(mesh.positions_mm, std::move(weld_after), wanted);
     for (size_t i = 0; i < before.size(); ++i) {
         const Turn turn(before[i], after[i]);
         if (before[i] == after[i] || turn.cosine < kOpposite) continue;
         mesh.normals[i] = turn(mesh.normals[i]);
+        if (mesh.tangents.empty()) continue;
         Vec4& t = mesh.tangents[i];
         const Vec3 turned = turn(Vec3{t.x, t.y, t.z});
         t = {turned.x, turned.y, turned.z, t.w};

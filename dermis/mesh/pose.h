@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dermis/base/result.h"
+#include "dermis/base/vec.h"
 
 namespace dermis::inline mesh {
 
@@ -24,6 +25,12 @@ struct Pose {
 
 /// Weights of morph targets in a pose by their names in Motion.
 using TargetWeights = std::map<std::string, float>;
+
+/// All vertices of a mesh in a pose, counted as Mesh::file_vertices counts them.
+struct PosedVertices {
+    std::vector<Vec3> positions_mm, normals;
+    TargetWeights target_weights = {};
+};
 
 struct ClipInfo {
     std::string name;  ///< "#2" for the second if the file has no name for it

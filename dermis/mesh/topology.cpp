@@ -107,10 +107,11 @@ void drop_unused_vertices(Mesh& mesh) {
     gather_vertices(mesh, from);
 }
 
-float corner_angle_rad(const Mesh& mesh, uint32_t corner) {
-    const Vec3 p = mesh.positions_mm[mesh.indices[corner]];
-    const Vec3 a = mesh.positions_mm[mesh.indices[next_corner(corner)]] - p;
-    const Vec3 b = mesh.positions_mm[mesh.indices[previous_corner(corner)]] - p;
+float corner_angle_rad(std::span<const Vec3> positions_mm, std::span<const uint32_t> indices,
+                       uint32_t corner) {
+    const Vec3 p = positions_mm[indices[corner]];
+    const Vec3 a = positions_mm[indices[next_corner(corner)]] - p;
+    const Vec3 b = positions_mm[indices[previous_corner(corner)]] - p;
     // atan2 is accurate for slivers, where acos of a dot product is not.
     const float angle = std::atan2(length(cross(a, b)), dot(a, b));
     return std::isfinite(angle) && length(a) > 0 && length(b) > 0 ? angle : 0.0f;

@@ -86,6 +86,7 @@ void split_vertices(Mesh& mesh, std::span<const uint32_t> group_of_corner);
 void drop_unused_vertices(Mesh& mesh);
 
 /// Interior angle of a corner in radians; 0 for degenerate triangles.
-[[nodiscard]] float corner_angle_rad(const Mesh& mesh, uint32_t corner);
+[[nodiscard]] float corner_angle_rad(std::span<const Vec3> positions_mm, std::span<const uint32_t> indices,
+                                     uint32_t corner);
 
 }  // namespace dermis::inline mesh

@@ -37,36 +37,33 @@ void move_vertices(Mesh& mesh, const PosedVertices& posed, const SurfaceAtRest& 
     }
 }
 
+Result<MeshPoser> open_file(const SceneObject& object) {
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes, read_file(object.file));
+    const ReadSibling read_sibling = [&](const std::string& path) {
+        return read_file(object.file.parent_path() / utf8_path(path));
+    };
+    return MeshPoser::create(bytes, object.file, read_sibling, {.unit_mm = object.unit_mm});
+}
+
 // In the scene.
-Result<PosedVertices> vertices_of(const SceneObject& object, std::span<const std::byte> file,
+Result<PosedVertices> vertices_of(const SceneObject& object, const std::optional<MeshPoser>& file,
                                   const Pose& pose) {
-    Mesh mesh;
-    TargetWeights weights;
-    if (object.posed_vertices) {
-        PosedVertices made = object.posed_vertices(pose);
-        mesh.positions_mm = std::move(made.positions_mm);
-        mesh.normals = std::move(made.normals);
-        weights = std::move(made.target_weights);
+    PosedVertices vertices;
+    if (file) {
+        DERMIS_TRY_ASSIGN(vertices, file->pose(pose));
     } else {
-        const bool is_glb = to_lower(object.file.extension().string()) == ".glb";
-        const ReadSibling read_sibling = [&](const std::string& path) {
-            return read_file(object.file.parent_path() / utf8_path(path));
-        };
-        DERMIS_TRY_ASSIGN(
-            LoadedMesh read,
-            parse_mesh(file, is_glb ? MeshFormat::glb : MeshFormat::gltf, object.file, read_sibling,
-                       {.unit_mm = object.unit_mm, .pose = pose, .keep_vertices = true}));
-        mesh = std::move(read.mesh);
-        weights = std::move(read.target_weights);
+        vertices = object.posed_vertices(pose);
     }
+    Mesh mesh{.positions_mm = std::move(vertices.positions_mm), .normals = std::move(vertices.normals)};
     place_mesh(mesh, object.placement);
     if (mesh.positions_mm.size() <= std::ranges::max(object.mesh.file_vertices))
         return Error{object.file.string() + ": has fewer vertices than before; open it again"};
-    return PosedVertices{std::move(mesh.positions_mm), std::move(mesh.normals), std::move(weights)};
+    return PosedVertices{std::move(mesh.positions_mm), std::move(mesh.normals),
+                         std::move(vertices.target_weights)};
 }
 
 // Areas at rest. The object itself may be in any pose.
-Result<RestAreas> areas_at_rest(const SceneObject& object, std::span<const std::byte> file) {
+Result<RestAreas> areas_at_rest(const SceneObject& object, const std::optional<MeshPoser>& file) {
     DERMIS_TRY_ASSIGN(const PosedVertices vertices, vertices_of(object, file, {}));
     Mesh rest{.indices = object.mesh.indices};
     for (const uint32_t from : object.mesh.file_vertices)
@@ -139,9 +136,10 @@ Result<ScenePoser> ScenePoser::create(const Scene& scene) {
     for (size_t i = 0; i < scene.objects.size(); ++i) {
         const SceneObject& object = scene.objects[i];
         if (!can_pose(object)) continue;
-        std::vector<std::byte> file;
+        std::optional<MeshPoser> file;
         if (!object.posed_vertices) {
-            DERMIS_TRY_ASSIGN(file, read_file(object.file));
+            DERMIS_TRY_ASSIGN(MeshPoser opened, open_file(object));
+            file = std::move(opened);
         }
         DERMIS_TRY_ASSIGN(RestAreas areas, areas_at_rest(object, file));
         poser.all_.push_back({.object = i,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dermis/base/result.h"
+#include "dermis/mesh/mesh_poser.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/mesh/tension.h"
 #include "dermis/scene/blood_tint.h"
@@ -44,8 +45,8 @@ struct SurfaceAtRest {
 
 class ScenePoser {
   public:
-    /// Keeps the bytes of the mesh files that move, and the shape that the scene's objects have now. Errors:
-    /// a file that cannot be read any more.
+    /// Reads the mesh files that move, and keeps the shape that the scene's objects have now. Errors: a file
+    /// that cannot be read any more.
     [[nodiscard]] static Result<ScenePoser> create(const Scene& scene);
 
     /// Whether the scene's object can be posed: it has motion, and its vertices are those of its file or
@@ -55,14 +56,14 @@ class ScenePoser {
     /// Moves the vertices of `scene`, whose meshes must be those of create(). Positions and normals are those
     /// that loading in the pose gives. Tangents and curvature tensors turn with the surface (dP/du and
     /// normal) from the shape that create() saw; tensions are against the rest pose, and colours follow them;
-    /// occlusion and bounds stay. Errors: a file that does not fit any more. Cost: dominated by reading the
-    /// mesh (docs/figures.md#moving-heads).
+    /// occlusion and bounds stay. Errors: a file that does not fit any more. Not for several threads at once.
+    /// Cost: docs/figures.md#moving-heads.
     [[nodiscard]] Result<void> pose(const Pose& pose, Scene& scene) const;
 
   private:
     struct Posed {
         size_t object = 0;
-        std::vector<std::byte> file;  ///< empty for subjects
+        std::optional<MeshPoser> file;  ///< none for subjects
         SurfaceAtRest rest;
         RestAreas areas;
         std::vector<Vec4> untinted;

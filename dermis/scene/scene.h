@@ -143,12 +143,6 @@ struct FoundPart {
     bool left_out = false;  ///< its triangles are not drawn
 };
 
-/// All vertices of a mesh in a pose, counted as Mesh::file_vertices counts them.
-struct PosedVertices {
-    std::vector<Vec3> positions_mm, normals;
-    TargetWeights target_weights = {};
-};
-
 struct SceneObject {
     std::string name;
     Mesh mesh;

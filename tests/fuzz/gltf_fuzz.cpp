@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "dermis/mesh/mesh_poser.h"
 #include "use_mesh.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
@@ -18,5 +19,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const auto posed = dermis::parse_mesh(bytes, dermis::MeshFormat::gltf, "dir/fuzz.gltf", read_buffer,
                                           {.max_vertices = 20000, .pose = pose});
     if (posed) dermis::fuzz::use_mesh(*posed);
+    const auto poser =
+        dermis::MeshPoser::create(bytes, "dir/fuzz.gltf", read_buffer, {.max_vertices = 20000});
+    if (poser)
+        for (const dermis::Pose& moment : {pose, dermis::Pose{}}) (void)poser->pose(moment);
     return 0;
 }

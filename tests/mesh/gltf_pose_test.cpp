@@ -9,6 +9,8 @@
 #include <sstream>
 
 #include "cli/run_program.h"
+#include "dermis/base/file.h"
+#include "dermis/mesh/mesh_poser.h"
 #include "dermis/mesh/read_mesh.h"
 #include "mesh/mesh_files.h"
 #include "support/temporary_directory.h"
@@ -52,6 +54,23 @@ double distance(const std::vector<Vec3>& expected, const std::vector<Vec3>& foun
         largest = std::max(largest, double(length(found[i] - p)));
     }
     return largest / double(length(high - low));
+}
+
+// One poser in several poses and at rest again, against reading the file in each: every bit.
+void expect_poser_reads_the_same(const std::string& file, const std::string& clip) {
+    const auto bytes = read_file(file);
+    ASSERT_TRUE(bytes) << bytes.error().message;
+    const auto poser = MeshPoser::create(*bytes, file, {}, {});
+    ASSERT_TRUE(poser) << poser.error().message;
+    for (const double time_s : {1.7, 0.3, 0.9, -1.0}) {
+        const Pose pose = time_s < 0 ? Pose{} : Pose{.clip = clip, .time_s = time_s};
+        const LoadedMesh loaded = load_posed(file, pose);
+        const auto posed = poser->pose(pose);
+        ASSERT_TRUE(posed) << posed.error().message;
+        EXPECT_EQ(posed->positions_mm, loaded.mesh.positions_mm) << file << " at " << time_s;
+        EXPECT_EQ(posed->normals, loaded.mesh.normals) << file << " at " << time_s;
+        EXPECT_EQ(posed->target_weights, loaded.target_weights) << file << " at " << time_s;
+    }
 }
 
 class GltfPose : public testing::Test {
@@ -117,6 +136,7 @@ TEST_F(GltfPose, every_kind_of_motion_agrees_with_the_specification) {
             EXPECT_LT(distance(expected, loaded.mesh.positions_mm), kMostError)
                 << entry.path().filename() << " at " << time_s;
         }
+        expect_poser_reads_the_same(entry.path().string(), "move");
     }
     EXPECT_EQ(files, 10);
 }
@@ -132,6 +152,7 @@ TEST_F(GltfPose, a_face_of_57_targets_and_a_skin_agrees_with_the_specification) 
         EXPECT_EQ(loaded.motion.targets.size(), 57u);
         EXPECT_EQ(loaded.motion.clips.size(), 3u);
         EXPECT_EQ(loaded.motion.joints, 3u);
+        expect_poser_reads_the_same(file.string(), clip);
     }
 }
 

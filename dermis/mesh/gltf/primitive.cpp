@@ -156,6 +156,18 @@ bool all_finite(std::span<const float> values) {
     return std::ranges::all_of(values, [](float v) { return std::isfinite(v); });
 }
 
+// As many elements as there are positions; any number if `count` is 0.
+std::vector<float> read_elements(Document& document, const JsonView& view, size_t components, size_t count) {
+    if (!view.exists() || view.failed()) return {};
+    const uint64_t accessor = view.integer(0);
+    if (view.failed()) return {};
+    std::vector<float> values = read_floats(document, accessor, components);
+    const size_t found = values.size() / components;
+    if (count != 0 && found != count && !view.failed())
+        view.fail(fmt::format("has {} elements for {} positions", found, count));
+    return values;
+}
+
 class PrimitiveReader {
   public:
     PrimitiveReader(Document& document, const JsonView& source, const PrimitiveOptions& options,
@@ -181,24 +193,14 @@ class PrimitiveReader {
         read_colors();
         if (options_.joint_count > 0 && !source_.failed())
             primitive_.influences = read_influences(document_, attributes_, count_, options_.joint_count);
-        add_morph_targets();
         if (source_.failed()) return false;
-        if (!all_finite(primitive_.positions)) return attributes_["POSITION"].fail("must be finite"), false;
         read_triangles(mode);
         return !source_.failed();
     }
 
   private:
-    // As many elements as there are positions.
     std::vector<float> read(const JsonView& view, size_t components) {
-        if (!view.exists() || view.failed()) return {};
-        const uint64_t accessor = view.integer(0);
-        if (view.failed()) return {};
-        std::vector<float> values = read_floats(document_, accessor, components);
-        const size_t found = values.size() / components;
-        if (count_ != 0 && found != count_ && !view.failed())
-            view.fail(fmt::format("has {} elements for {} positions", found, count_));
-        return values;
+        return read_elements(document_, view, components, count_);
     }
 
     void read_uvs() {
@@ -229,27 +231,6 @@ class PrimitiveReader {
         if (wrong > 0) view.warn(std::to_string(wrong) + " numbers are below 0 or not finite; they are 0");
     }
 
-    void add_morph_targets() {
-        const JsonView targets = source_["targets"];
-        for (size_t i = 0; i < std::min(targets.size(), options_.morph.size()); ++i) {
-            const float weight = options_.morph[i];
-            if (weight == 0 || source_.failed()) continue;
-            if (!targets[i]["NORMAL"].exists() && primitive_.unmorphed.empty())
-                primitive_.unmorphed = primitive_.positions;
-            add_scaled(read(targets[i]["POSITION"], 3), weight, primitive_.positions, 3);
-            if (targets[i]["NORMAL"].exists() && !primitive_.unmorphed.empty())
-                add_scaled(read(targets[i]["POSITION"], 3), weight, primitive_.unmorphed, 3);
-            add_scaled(read(targets[i]["NORMAL"], 3), weight, primitive_.normals, 3);
-            add_scaled(read(targets[i]["TANGENT"], 3), weight, primitive_.tangents, 4);
-        }
-    }
-
-    static void add_scaled(const std::vector<float>& change, float weight, std::vector<float>& values,
-                           size_t components) {
-        for (size_t i = 0; i < change.size() && i / 3 * components < values.size(); ++i)
-            values[i / 3 * components + i % 3] += weight * change[i];
-    }
-
     void read_triangles(uint64_t mode) {
         std::vector<uint32_t> indices;
         if (source_["indices"].exists()) {
@@ -274,6 +255,68 @@ class PrimitiveReader {
 };
 
 }  // namespace
+
+namespace {
+
+MorphTarget read_target(Document& document, const JsonView& target, size_t count) {
+    MorphTarget read{.has_normals = target["NORMAL"].exists()};
+    const std::vector<float> changes = read_elements(document, target["POSITION"], 3, count);
+    for (size_t i = 0; i + 2 < changes.size(); i += 3) {
+        const Vec3 change = {changes[i], changes[i + 1], changes[i + 2]};
+        if (change == Vec3{}) continue;
+        read.moved.push_back(uint32_t(i / 3));
+        read.changes.push_back(change);
+    }
+    read.normals = read_elements(document, target["NORMAL"], 3, count);
+    read.tangents = read_elements(document, target["TANGENT"], 3, count);
+    return read;
+}
+
+void add_changes(const MorphTarget& target, float weight, std::vector<float>& positions) {
+    for (size_t i = 0; i < target.moved.size(); ++i) {
+        float* p = &positions[3 * size_t(target.moved[i])];
+        const Vec3 change = weight * target.changes[i];
+        p[0] += change.x, p[1] += change.y, p[2] += change.z;
+    }
+}
+
+void add_scaled(const std::vector<float>& change, float weight, std::vector<float>& values,
+                size_t components) {
+    for (size_t i = 0; i < change.size() && i / 3 * components < values.size(); ++i)
+        values[i / 3 * components + i % 3] += weight * change[i];
+}
+
+}  // namespace
+
+const MorphTarget& morph_target(Document& document, const JsonView& source, Primitive& primitive,
+                                size_t index) {
+    primitive.targets.resize(std::max(primitive.targets.size(), index + 1));
+    std::optional<MorphTarget>& target = primitive.targets[index];
+    if (!target) target = read_target(document, source["targets"][index], primitive.positions.size() / 3);
+    return *target;
+}
+
+MorphedVertices morph(Document& document, const JsonView& source, Primitive& primitive,
+                      std::span<const float> weights) {
+    MorphedVertices morphed{.positions = primitive.positions,
+                            .normals = primitive.normals,
+                            .tangents = primitive.tangents,
+                            .unmorphed = {}};
+    const size_t count = std::min(source["targets"].size(), weights.size());
+    for (size_t i = 0; i < count && !source.failed(); ++i) {
+        const float weight = weights[i];
+        if (weight == 0) continue;
+        const MorphTarget& target = morph_target(document, source, primitive, i);
+        if (!target.has_normals && morphed.unmorphed.empty()) morphed.unmorphed = morphed.positions;
+        add_changes(target, weight, morphed.positions);
+        if (target.has_normals && !morphed.unmorphed.empty()) add_changes(target, weight, morphed.unmorphed);
+        add_scaled(target.normals, weight, morphed.normals, 3);
+        add_scaled(target.tangents, weight, morphed.tangents, 4);
+    }
+    if (!source.failed() && !all_finite(morphed.positions))
+        source["attributes"]["POSITION"].fail("must be finite");
+    return morphed;
+}
 
 bool read_primitive(Document& document, const JsonView& source, const PrimitiveOptions& options,
                     Primitive& primitive) {
