@@ -222,7 +222,32 @@ Result<Descriptor> BindingResolver::uniform_block(const Pass& pass, const Bindin
     return descriptor;
 }
 
+// A stream is read and written where it is, an array that goes along with the frame in the uploads.
+Result<Descriptor> BindingResolver::buffer_of_pass(const Pass& pass, const Binding& binding,
+                                                   const std::string& input) {
+    const std::string label = binding_label(pass, "storage buffer", binding);
+    const BufferInput* found = find_in(context_.inputs.buffers, input);
+    if (!found) return Error{label + ": nothing supplies the buffer '" + input + "'"};
+    const GeometryData* data = found->array ? &found->array->state().data : nullptr;
+    if (found->geometry)
+        if (const auto* stream = find_in(found->geometry->state().streams, found->stream))
+            data = &stream->data;
+    if (!data) return Error{label + ": the geometry lacks the stream '" + found->stream + "'"};
+    if (binding.writable && !data->buffer.handle)
+        return Error{label + " is written, but its buffer goes along with the frame; declare it readonly"};
+    const BufferPlace at = place(*data);
+    return Descriptor{.type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                      .buffer = at.buffer,
+                      .offset = at.offset,
+                      .size = at.buffer ? data->buffer.size : data->bytes.size()};
+}
+
 Result<Descriptor> BindingResolver::storage_buffer(const Pass& pass, const Binding& binding) {
+    const auto of_pass = std::ranges::find(pass.buffers, binding.name, &ImageRead::texture);
+    if (of_pass != pass.buffers.end()) return buffer_of_pass(pass, binding, of_pass->image);
+    if (binding.writable)
+        return Error{binding_label(pass, "storage buffer", binding) +
+                     " must be declared readonly, or be one of the pass's buffers"};
     Descriptor descriptor{.type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
     if (const KnownBlock* same = known(binding.name, binding, nullptr)) {
         descriptor.offset = same->offset, descriptor.size = same->size;

@@ -105,6 +105,25 @@ class Texture {
     std::unique_ptr<State> state_;
 };
 
+/// Numbers that compute shaders read and write, as they lie in a storage buffer of scalar layout.
+class Array {
+  public:
+    [[nodiscard]] static Result<Array> upload(Device& device, std::string_view name,
+                                              std::span<const std::byte> bytes);
+    /// For what changes every frame: stays on the CPU, and each frame that reads it takes it along.
+    [[nodiscard]] static Array streamed(std::span<const std::byte> bytes);
+    ~Array();
+    Array(Array&&) noexcept;
+    Array& operator=(Array&&) noexcept;
+
+    struct State;
+    [[nodiscard]] State& state() const { return *state_; }
+
+  private:
+    explicit Array(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
 /// Vertex streams by the name of the vertex shader's input: position_mm (3 floats), normal (3), tangent (4),
 /// uv (2), occlusion (1).
 struct VertexStream {
@@ -124,6 +143,8 @@ class Geometry {
                                                    std::span<const uint32_t> indices);
     /// New values of a stream, or one more stream. Waits until frames that read the old ones are done.
     [[nodiscard]] Result<void> put(Device& device, const VertexStream& stream);
+    /// A stream as the device has it. Waits for what was submitted. Error: no such stream on the device.
+    [[nodiscard]] Result<std::vector<float>> read(Device& device, std::string_view stream) const;
     [[nodiscard]] uint32_t vertex_count() const;
     ~Geometry();
     Geometry(Geometry&&) noexcept;

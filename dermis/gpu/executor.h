@@ -45,6 +45,13 @@ struct ForeignImage {
     std::string name;
 };
 
+/// A buffer of a compute pass: an array, or a stream of a geometry on the device.
+struct BufferInput {
+    const Array* array = nullptr;
+    const Geometry* geometry = nullptr;
+    std::string stream = {};
+};
+
 /// The frame's inputs beside the list's own images. Priority for duplicate names: draw, pass, frame.
 struct FrameInputs {
     int width = 0, height = 0;
@@ -52,6 +59,7 @@ struct FrameInputs {
     std::map<std::string, ForeignImage, std::less<>> images;
     std::map<std::string, Values, std::less<>> blocks;  ///< uniform blocks: "Frame", "Params", ...
     std::map<std::string, std::vector<Values>, std::less<>> arrays;  ///< storage buffers: "Lights", ...
+    std::map<std::string, BufferInput, std::less<>> buffers;         ///< those of Pass::buffers
     std::vector<Draw> draws;
 };
 

@@ -8,7 +8,7 @@ DescriptorWrites::DescriptorWrites(const PlannedDraw& draw, VkBuffer uploads)
     : buffers_(draw.descriptors.size()), writes_(draw.descriptors.size()) {
     for (size_t i = 0; i < writes_.size(); ++i) {
         const Descriptor& descriptor = draw.descriptors[i];
-        buffers_[i] = {uploads, descriptor.offset, descriptor.size};
+        buffers_[i] = {descriptor.buffer ? descriptor.buffer : uploads, descriptor.offset, descriptor.size};
         writes_[i] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                       .dstSet = draw.set,
                       .dstBinding = descriptor.binding,

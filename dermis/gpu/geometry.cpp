@@ -53,6 +53,10 @@ Result<Buffer> upload_buffer(Device::State& device, std::string_view name, VkBuf
 
 namespace {
 
+// Compute passes move vertices.
+constexpr VkBufferUsageFlags kStreamUsage =
+    VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+
 // `put` makes data of a name, a use of buffers, and bytes.
 template <class Put>
 Result<std::unique_ptr<Geometry::State>> make_state(std::string_view name,
@@ -65,8 +69,7 @@ Result<std::unique_ptr<Geometry::State>> make_state(std::string_view name,
     state->index_count = uint32_t(indices.size());
     for (const VertexStream& stream : streams) {
         DERMIS_TRY_ASSIGN(GeometryData data,
-                          put(state->name + " " + stream.name, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
-                              std::as_bytes(stream.values)));
+                          put(state->name + " " + stream.name, kStreamUsage, std::as_bytes(stream.values)));
         state->streams[stream.name] = {stream.components, std::move(data)};
     }
     DERMIS_TRY_ASSIGN(state->indices, put(state->name + " indices", VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
@@ -102,14 +105,46 @@ Result<void> Geometry::put(Device& device, const VertexStream& stream) {
     const bool is_other = found != state_->streams.end() && found->second.components != stream.components;
     if (is_other || stream.values.size() != size_t(stream.components) * state_->vertex_count)
         return geometry_error(state_->name, "stream '" + stream.name + "' does not fit its vertices");
-    DERMIS_TRY_ASSIGN(Buffer buffer,
-                      upload_buffer(device.state(), state_->name + " " + stream.name,
-                                    VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, std::as_bytes(stream.values)));
+    DERMIS_TRY_ASSIGN(Buffer buffer, upload_buffer(device.state(), state_->name + " " + stream.name,
+                                                   kStreamUsage, std::as_bytes(stream.values)));
     State::Stream& kept = state_->streams[stream.name];
     kept.components = stream.components;
     kept.data.buffer = std::move(buffer);
     return {};
 }
+
+Result<std::vector<float>> Geometry::read(Device& device, std::string_view stream) const {
+    const auto found = state_->streams.find(stream);
+    if (found == state_->streams.end() || !found->second.data.buffer.handle)
+        return geometry_error(state_->name, "has no stream '" + std::string(stream) + "' on the device");
+    const Buffer& source = found->second.data.buffer;
+    const Context& context = device.state().context;
+    DERMIS_TRY(device.finish());
+    DERMIS_TRY_ASSIGN(const Buffer copy, make_buffer(context, "copy of " + state_->name, source.size,
+                                                     VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback));
+    DERMIS_TRY(run_once(device.state(), "reading " + state_->name, [&](VkCommandBuffer commands) {
+        const VkBufferCopy region = {.size = source.size};
+        context.vk.vkCmdCopyBuffer(commands, source.handle.get(), copy.handle.get(), 1, &region);
+    }));
+    std::vector<float> values(size_t(found->second.components) * state_->vertex_count);
+    std::memcpy(values.data(), copy.mapped, values.size() * sizeof(float));
+    return values;
+}
+
+Result<Array> Array::upload(Device& device, std::string_view name, std::span<const std::byte> bytes) {
+    DERMIS_TRY_ASSIGN(Buffer buffer,
+                      upload_buffer(device.state(), name, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, bytes));
+    return Array(std::make_unique<State>(State{{.buffer = std::move(buffer)}}));
+}
+
+Array Array::streamed(std::span<const std::byte> bytes) {
+    return Array(std::make_unique<State>(State{{.bytes = {bytes.begin(), bytes.end()}}}));
+}
+
+Array::Array(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Array::~Array() = default;
+Array::Array(Array&&) noexcept = default;
+Array& Array::operator=(Array&&) noexcept = default;
 
 uint32_t Geometry::vertex_count() const {
     return state_->vertex_count;

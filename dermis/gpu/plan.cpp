@@ -126,9 +126,12 @@ class Planner {
 
     Result<void> compute(PlannedPass& planned) {
         const Pass& pass = *planned.pass;
-        if (pass.storage.empty()) return pass_error(pass, "a compute pass needs a storage image");
+        if (pass.storage.empty() && pass.threads == 0)
+            return pass_error(pass, "a compute pass needs a storage image, or buffers and threads");
         DERMIS_TRY(find_pipeline(planned));
-        planned.extent = context_.images.find(pass.storage.front().image)->extent();
+        planned.extent = {pass.threads, 1};
+        if (!pass.storage.empty())
+            planned.extent = context_.images.find(pass.storage.front().image)->extent();
         for (const ImageRead& storage : pass.storage)
             planned.accesses.push_back(
                 {.image = context_.images.find(storage.image), .use = ImageUse::storage});

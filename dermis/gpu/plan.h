@@ -17,11 +17,12 @@ struct ImageAccess {
     bool discard = false;
 };
 
-/// One write into a descriptor set; buffers are ranges of the plan's uploads.
+/// One write into a descriptor set; `buffer` null: a range of the plan's uploads.
 struct Descriptor {
     uint32_t binding = 0;
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
     VkDescriptorImageInfo image = {};
+    VkBuffer buffer = VK_NULL_HANDLE;
     size_t offset = 0, size = 0;
 };
 
@@ -107,6 +108,8 @@ class BindingResolver {
     [[nodiscard]] Result<Descriptor> uniform_block(const Pass& pass, const Binding& binding,
                                                    const Draw* draw);
     [[nodiscard]] Result<Descriptor> storage_buffer(const Pass& pass, const Binding& binding);
+    [[nodiscard]] Result<Descriptor> buffer_of_pass(const Pass& pass, const Binding& binding,
+                                                    const std::string& input);
     [[nodiscard]] Result<Descriptor> resolve_one(PlannedPass& planned, const Binding& binding,
                                                  const Draw* draw);
     [[nodiscard]] const KnownBlock* known(const std::string& name, const Binding& binding,

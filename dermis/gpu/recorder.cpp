@@ -176,13 +176,34 @@ class Recorder {
         vk_.vkCmdSetScissor(commands_, 0, 1, &scissor);
     }
 
+    // Between a pass that writes buffers and all that reads or writes them before and after, also in frames
+    // of other executors: there are few such passes.
+    void order_buffers() {
+        constexpr VkPipelineStageFlags2 kStages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
+                                                  VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT |
+                                                  VK_PIPELINE_STAGE_2_COPY_BIT;
+        const VkMemoryBarrier2 barrier = {
+            .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+            .srcStageMask = kStages,
+            .srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+            .dstStageMask = kStages,
+            .dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+                             VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT};
+        const VkDependencyInfo info = {
+            .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
+        vk_.vkCmdPipelineBarrier2(commands_, &info);
+    }
+
     void dispatch(const PlannedPass& planned) {
         const auto& local = planned.pipeline->local_size;
         vk_.vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, planned.pipeline->handle.get());
         push_constants(planned);
         bind_descriptors(*planned.pipeline, planned.draws.front());
+        const bool writes_buffers = !planned.pass->buffers.empty();
+        if (writes_buffers) order_buffers();
         vk_.vkCmdDispatch(commands_, (planned.extent.width + local[0] - 1) / local[0],
                           (planned.extent.height + local[1] - 1) / local[1], 1);
+        if (writes_buffers) order_buffers();
     }
 
     void draw(const Pipeline& pipeline, const PlannedDraw& draw) {

@@ -113,8 +113,13 @@ class Reflector {
             add_binding(resource, BindingKind::sampled_texture).shape = shape(resource.type_id);
         for (const auto& resource : list(SPVC_RESOURCE_TYPE_UNIFORM_BUFFER))
             add_binding(resource, BindingKind::uniform_block).block = read_block(resource);
-        for (const auto& resource : list(SPVC_RESOURCE_TYPE_STORAGE_BUFFER))
-            add_binding(resource, BindingKind::storage_buffer).block = read_runtime_array(resource);
+        for (const auto& resource : list(SPVC_RESOURCE_TYPE_STORAGE_BUFFER)) {
+            Binding& binding = add_binding(resource, BindingKind::storage_buffer);
+            binding.block = read_runtime_array(resource);
+            binding.writable = !is_read_only(resource);
+            if (binding.writable && result_.stage != VK_SHADER_STAGE_COMPUTE_BIT)
+                fail("storage buffer '" + binding.name + "' must be declared readonly");
+        }
     }
 
     void read_push_constants() {
@@ -146,7 +151,6 @@ class Reflector {
             fail("storage buffer '" + name + "' must hold one array without a size and nothing else");
             return {};
         }
-        check_read_only(resource);
         BlockLayout layout;
         if (spvc_type_get_basetype(member) == SPVC_BASETYPE_STRUCT)
             layout = read_members(spvc_type_get_base_type_id(member), name);
@@ -159,13 +163,13 @@ class Reflector {
         return layout;
     }
 
-    void check_read_only(const spvc_reflected_resource& resource) {
+    bool is_read_only(const spvc_reflected_resource& resource) {
         const SpvDecoration* decorations = nullptr;
         size_t count = 0;
         spvc_compiler_get_buffer_block_decorations(compiler_, resource.id, &decorations, &count);
         for (size_t i = 0; i < count; ++i)
-            if (decorations[i] == SpvDecorationNonWritable) return;
-        fail("storage buffer '" + std::string(resource.name) + "' must be declared readonly");
+            if (decorations[i] == SpvDecorationNonWritable) return true;
+        return false;
     }
 
     BlockLayout read_members(spvc_type_id struct_id, const std::string& block_name) {

@@ -40,6 +40,7 @@ struct Binding {
     TextureShape shape = TextureShape::plane;
     std::string_view texel_format;  ///< of a storage image, as GLSL has it; empty when it has none
     BlockLayout block;
+    bool writable = false;  ///< a storage buffer of a compute shader that is not readonly
     /// Positions of the numbers in the SPIR-V, in words.
     uint32_t binding_word = 0, set_word = 0;
 };

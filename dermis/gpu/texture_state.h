@@ -20,6 +20,10 @@ struct GeometryData {
     std::vector<std::byte> bytes;
 };
 
+struct Array::State {
+    GeometryData data;
+};
+
 struct Geometry::State {
     struct Stream {
         int components = 0;

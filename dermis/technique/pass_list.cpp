@@ -81,7 +81,8 @@ class Checker {
         const bool clears_only = pass.kind == PassKind::fullscreen;
         if (pass.shader.empty() && !transfer && !depth_only && !clears_only) report(pass, "has no shader");
         if (transfer && pass.reads.empty()) report(pass, "has nothing to read");
-        const bool writes_nothing = pass.colors.empty() && !pass.depth && pass.storage.empty();
+        const bool writes_nothing =
+            pass.colors.empty() && !pass.depth && pass.storage.empty() && pass.buffers.empty();
         if (writes_nothing && pass.kind != PassKind::generate_mips) report(pass, "writes nothing");
         check_reads(pass);
         check_targets(pass);
@@ -196,6 +197,7 @@ std::string describe(const PassList& list) {
         for (const ColorTarget& color : pass.colors) targets.push_back(color.image);
         if (pass.depth) targets.push_back(pass.depth->image + (pass.depth->write ? "" : " (test only)"));
         for (const ImageRead& write : pass.storage) targets.push_back(write.image);
+        for (const ImageRead& buffer : pass.buffers) targets.push_back(buffer.image);
         text += "  writes " + join(targets, ", ") + "\n";
     }
     return text;

@@ -115,6 +115,10 @@ struct Pass {
     std::vector<ColorTarget> colors;
     std::optional<DepthTarget> depth;
     std::vector<ImageRead> storage;  ///< images a compute pass writes; the first one's size gives its groups
+    /// Compute passes without storage images: threads along x, and buffers of the frame's inputs by the names
+    /// of the shader's storage buffers, which it may write.
+    uint32_t threads = 0;
+    std::vector<ImageRead> buffers;
     GeometryFilter geometry = GeometryFilter::skin;
     Cull cull = Cull::none;
     float depth_bias_constant = 0, depth_bias_slope = 0;
