@@ -1,6 +1,7 @@
 #include "dermis/mesh/follow_normals.h"
 
 #include "dermis/mesh/normals.h"
+#include "shaders/include/posing.h"
 
 namespace dermis::inline mesh {
 namespace {
@@ -17,18 +18,6 @@ std::vector<uint8_t> around_moved(std::span<const Vec3> before_mm, const Mesh& m
     return around;
 }
 
-// The smallest rotation from one unit vector to another (Moller and Hughes 1999, "Efficiently Building a
-// Matrix to Rotate One Vector to Another").
-struct Turn {
-    Vec3 axis;
-    float cosine;
-
-    Turn(Vec3 from, Vec3 to) : axis(cross(from, to)), cosine(dot(from, to)) {}
-    [[nodiscard]] Vec3 operator()(Vec3 v) const {
-        return cosine * v + cross(axis, v) + dot(axis, v) / (1 + cosine) * axis;
-    }
-};
-
 }  // namespace
 
 void turn_normals(std::span<const Vec3> before_mm, Mesh& mesh) {
@@ -37,7 +26,6 @@ void turn_normals(std::span<const Vec3> before_mm, Mesh& mesh) {
 }
 
 void turn_normals(std::span<const Vec3> before_mm, Mesh& mesh, SmoothNormals& smooth) {
-    constexpr float kOpposite = -0.999f;  // no smallest rotation: such a vertex keeps its normal
     Weld weld_before = weld_positions(before_mm), weld_after = weld_positions(mesh.positions_mm);
     // Where other positions coincide, normals change without a move.
     std::vector<uint8_t> wanted;
@@ -45,12 +33,11 @@ void turn_normals(std::span<const Vec3> before_mm, Mesh& mesh, SmoothNormals& sm
     const std::vector<Vec3> before = smooth.of_vertices(before_mm, std::move(weld_before), wanted),
                             after = smooth.of_vertices(mesh.positions_mm, std::move(weld_after), wanted);
     for (size_t i = 0; i < before.size(); ++i) {
-        const Turn turn(before[i], after[i]);
-        if (before[i] == after[i] || turn.cosine < kOpposite) continue;
-        mesh.normals[i] = turn(mesh.normals[i]);
+        if (before[i] == after[i] || dot(before[i], after[i]) < posing::kOppositeNormals) continue;
+        mesh.normals[i] = posing::turned(before[i], after[i], mesh.normals[i]);
         if (mesh.tangents.empty()) continue;
         Vec4& t = mesh.tangents[i];
-        const Vec3 turned = turn(Vec3{t.x, t.y, t.z});
+        const Vec3 turned = posing::turned(before[i], after[i], {t.x, t.y, t.z});
         t = {turned.x, turned.y, turned.z, t.w};
     }
 }

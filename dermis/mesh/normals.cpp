@@ -9,6 +9,7 @@
 
 #include "dermis/base/parallel.h"
 #include "dermis/mesh/topology.h"
+#include "shaders/include/posing.h"
 
 namespace dermis::inline mesh {
 namespace {
@@ -56,8 +57,8 @@ void join_across_edges(std::span<const uint32_t> corners, std::span<const uint32
     }
 }
 
-JoinedCorners join_corners(Weld weld, std::span<const uint32_t> indices, std::span<const Vec3> face_normals,
-                           float cos_crease) {
+JoinedCorners join_at_creases(Weld weld, std::span<const uint32_t> indices,
+                              std::span<const Vec3> face_normals, float cos_crease) {
     const std::vector<uint32_t> positions = welded_indices(indices, weld);
     JoinedCorners joined{.table = CornerTable(positions, weld.count()), .leaders = {}};
     joined.leaders.reserve(indices.size());
@@ -74,7 +75,7 @@ JoinedCorners join_corners(Weld weld, std::span<const uint32_t> indices, std::sp
 
 // Where it does, each face keeps its own normal.
 bool cancels(Vec3 sum) {
-    return length(sum) < 1e-4f;
+    return length(sum) < posing::kShortestNormalSum;
 }
 
 // Sums over each set of joined corners.
@@ -93,7 +94,7 @@ void sum_corners(const TriangleSpans& mesh, std::span<const Vec3> face_normals,
 
 bool is_usable(Vec3 n) {
     const float squared = dot(n, n);
-    return std::isfinite(squared) && squared > 1e-12f;
+    return std::isfinite(squared) && squared > posing::kLeastNormalSquared;
 }
 
 struct CornerNormals {
@@ -107,9 +108,9 @@ CornerNormals corner_normals(const Mesh& mesh, const NormalOptions& options) {
     // At 180 degrees rounding must not make a crease of a fold.
     const bool creases = options.crease_angle_deg < 180;
     const JoinedCorners joined =
-        join_corners(weld_positions(mesh.positions_mm), mesh.indices,
-                     creases ? std::span(face_normals) : std::span<const Vec3>(),
-                     std::cos(options.crease_angle_deg * std::numbers::pi_v<float> / 180));
+        join_at_creases(weld_positions(mesh.positions_mm), mesh.indices,
+                        creases ? std::span(face_normals) : std::span<const Vec3>(),
+                        std::cos(options.crease_angle_deg * std::numbers::pi_v<float> / 180));
     CornerNormals result{std::vector<Vec3>(mesh.indices.size()), std::vector<uint32_t>(mesh.indices.size())};
     std::vector<Vec3> sums;
     for (uint32_t position = 0; position < joined.weld.count(); ++position) {
@@ -134,12 +135,16 @@ void compute_normals(Mesh& mesh, const NormalOptions& options) {
         if (is_usable(corners.normal[corner])) mesh.normals[mesh.indices[corner]] = corners.normal[corner];
 }
 
+JoinedCorners join_corners(Weld weld, std::span<const uint32_t> indices) {
+    return join_at_creases(std::move(weld), indices, {}, 0);
+}
+
 // Work on triangles and corners is split into blocks of this many.
 constexpr size_t kBlock = 4096;
 
 std::vector<Vec3> SmoothNormals::of_vertices(std::span<const Vec3> positions_mm, Weld weld,
                                              std::span<const uint8_t> wanted) {
-    if (!joined_ || joined_->weld.ids != weld.ids) joined_ = join_corners(std::move(weld), indices_, {}, 0);
+    if (!joined_ || joined_->weld.ids != weld.ids) joined_ = join_corners(std::move(weld), indices_);
     const TriangleSpans mesh = {positions_mm, indices_};
     const std::vector<uint32_t>& places = joined_->weld.ids;
     std::vector<uint8_t> is_wanted(joined_->weld.count(), wanted.empty());

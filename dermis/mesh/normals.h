@@ -35,6 +35,9 @@ struct JoinedCorners {
     }
 };
 
+/// Across every edge, whatever its angle.
+[[nodiscard]] JoinedCorners join_corners(Weld weld, std::span<const uint32_t> indices);
+
 /// Smooth normals of one mesh in one shape after another. It keeps what depends on the triangles and on which
 /// positions coincide. Not for several threads at once.
 class SmoothNormals {

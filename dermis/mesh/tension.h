@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "dermis/mesh/mesh.h"
+#include "shaders/include/posing.h"
 
 namespace dermis::inline mesh {
 
-/// Tensions stay within +-4, which is an area times or divided by 55.
-inline constexpr float kMostTension = 4;
+using posing::kMostTension;
 
 /// The area around each vertex of a mesh at rest, over the welded topology.
 struct RestAreas {

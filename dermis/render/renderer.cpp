@@ -119,13 +119,13 @@ std::vector<int> lights_by_shadow_map(const Scene& scene) {
 
 }  // namespace
 
-Renderer::Renderer(gpu::Device& device, gpu::Executor executor, const Scene& scene)
-    : device_(&device), executor_(std::move(executor)), scene_(&scene) {}
+Renderer::Renderer(gpu::Device& device, gpu::ShaderSource shaders, gpu::Executor executor, const Scene& scene)
+    : device_(&device), shaders_(std::move(shaders)), executor_(std::move(executor)), scene_(&scene) {}
 
 Result<Renderer> Renderer::create(gpu::Device& device, gpu::ShaderSource shaders, const Scene& scene) {
     DERMIS_TRY_ASSIGN(SceneOnDevice uploaded, SceneOnDevice::upload(device, scene));
-    DERMIS_TRY_ASSIGN(gpu::Executor executor, gpu::Executor::create(device, std::move(shaders)));
-    Renderer renderer(device, std::move(executor), scene);
+    DERMIS_TRY_ASSIGN(gpu::Executor executor, gpu::Executor::create(device, shaders));
+    Renderer renderer(device, std::move(shaders), std::move(executor), scene);
     renderer.owned_ = std::make_unique<SceneOnDevice>(std::move(uploaded));
     renderer.uploaded_ = renderer.owned_.get();
     renderer.warnings_ = renderer.uploaded_->warnings();
@@ -133,8 +133,8 @@ Result<Renderer> Renderer::create(gpu::Device& device, gpu::ShaderSource shaders
 }
 
 Result<Renderer> Renderer::sibling(gpu::ShaderSource shaders) {
-    DERMIS_TRY_ASSIGN(gpu::Executor executor, gpu::Executor::create(*device_, std::move(shaders)));
-    Renderer renderer(*device_, std::move(executor), *scene_);
+    DERMIS_TRY_ASSIGN(gpu::Executor executor, gpu::Executor::create(*device_, shaders));
+    Renderer renderer(*device_, std::move(shaders), std::move(executor), *scene_);
     renderer.uploaded_ = uploaded_;
     return renderer;
 }
@@ -148,8 +148,22 @@ Result<void> Renderer::vertices_moved() {
     return uploaded_->replace_vertices(*device_, *scene_);
 }
 
+Result<bool> Renderer::pose_on_device(const ScenePoser& poser, const Pose& pose) {
+    if (!deformer_) {
+        DERMIS_TRY_ASSIGN(std::optional<Deformer> made,
+                          Deformer::create(*device_, shaders_, *scene_, poser, uploaded_->geometries()));
+        deformer_.emplace(std::move(made));
+    }
+    if (!*deformer_) return false;
+    drop_history();
+    DERMIS_TRY(uploaded_->add_tensions(*device_, *scene_));
+    DERMIS_TRY((*deformer_)->pose(pose));
+    return true;
+}
+
 Result<void> Renderer::objects_replaced() {
     forget_shape();
+    deformer_.reset();
     return uploaded_->replace_objects(*device_, *scene_);
 }
 

@@ -6,6 +6,7 @@
 
 #include "dermis/gpu/executor.h"
 #include "dermis/optics/gain_form.h"
+#include "dermis/render/deformer.h"
 #include "dermis/render/scene_upload.h"
 #include "dermis/render/seam_textures.h"
 #include "dermis/render/shared_passes.h"
@@ -60,6 +61,13 @@ class Renderer {
     /// and curvature. What is baked from the shape (occlusion, diffused normals, gains of walks) stays. The
     /// history of this renderer starts again; call drop_history() of siblings.
     [[nodiscard]] Result<void> vertices_moved();
+    /// The same on the device, in the pose that follows next: the scene's own vertices stay as they are.
+    /// False where only the CPU can (Deformer::create); then call poser.pose() and vertices_moved(). `poser`
+    /// is of the scene and the same until objects_replaced(). The CPU does not wait for the device.
+    [[nodiscard]] Result<bool> pose_on_device(const ScenePoser& poser, const Pose& pose);
+    /// The meshes on the device, one an object.
+    [[nodiscard]] std::vector<const gpu::Geometry*> geometries() const { return uploaded_->geometries(); }
+    [[nodiscard]] Deformer* deformer() { return deformer_ && *deformer_ ? &**deformer_ : nullptr; }
     /// The scene has other objects with the same materials, maps and submeshes: uploads them, and bakes again
     /// what is made of the shape. Call forget_shape() of siblings.
     [[nodiscard]] Result<void> objects_replaced();
@@ -94,7 +102,7 @@ class Renderer {
     [[nodiscard]] gpu::FrameInputs inputs(const ParameterValues& values, const DrawSettings& settings) const;
 
   private:
-    Renderer(gpu::Device& device, gpu::Executor executor, const Scene& scene);
+    Renderer(gpu::Device& device, gpu::ShaderSource shaders, gpu::Executor executor, const Scene& scene);
     [[nodiscard]] Result<void> prepare(const Technique& technique, const ParameterValues& values,
                                        const DrawSettings& settings);
     Result<void> prepare_profiles();
@@ -114,8 +122,10 @@ class Renderer {
     Result<void> prepare_walked_gains();
 
     gpu::Device* device_;
+    gpu::ShaderSource shaders_;
     gpu::Executor executor_;
-    std::unique_ptr<SceneOnDevice> owned_;  ///< empty in a sibling
+    std::optional<std::optional<Deformer>> deformer_;  ///< absent: not asked for yet
+    std::unique_ptr<SceneOnDevice> owned_;             ///< empty in a sibling
     SceneOnDevice* uploaded_ = nullptr;
     const Scene* scene_;
     PassList list_;

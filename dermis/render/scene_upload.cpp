@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
@@ -225,12 +226,27 @@ Result<void> SceneOnDevice::upload_objects(gpu::Device& device, const Scene& sce
 Result<void> SceneOnDevice::upload_tensions(gpu::Device& device, const Scene& scene) {
     has_tension_ = std::ranges::any_of(
         scene.objects, [](const SceneObject& object) { return !object.mesh.tensions.empty(); });
-    for (size_t i = 0; has_tension_ && i < geometries_.size(); ++i) {
+    return has_tension_ ? put_tensions(device, scene) : Result<void>();
+}
+
+Result<void> SceneOnDevice::put_tensions(gpu::Device& device, const Scene& scene) {
+    for (size_t i = 0; i < geometries_.size(); ++i) {
         const Mesh& mesh = scene.objects[i].mesh;
         const auto tensions = filled(mesh.tensions, mesh.positions_mm.size(), 0.0f);
         DERMIS_TRY(geometries_[i]->put(device, {"tension", 1, tensions}));
     }
     return {};
+}
+
+Result<void> SceneOnDevice::add_tensions(gpu::Device& device, const Scene& scene) {
+    if (std::exchange(has_tension_, true)) return {};
+    return put_tensions(device, scene);
+}
+
+std::vector<const gpu::Geometry*> SceneOnDevice::geometries() const {
+    std::vector<const gpu::Geometry*> all;
+    for (const auto& geometry : geometries_) all.push_back(geometry.get());
+    return all;
 }
 
 Result<void> SceneOnDevice::replace_vertices(gpu::Device& device, const Scene& scene) {

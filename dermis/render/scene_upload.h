@@ -23,6 +23,8 @@ class SceneOnDevice {
 
     /// After the vertices of its objects have moved: what upload() made of them, but for the occlusion.
     [[nodiscard]] Result<void> replace_vertices(gpu::Device& device, const Scene& scene);
+    /// Gives every geometry a stream "tension", 0 where the mesh has none, unless they have it.
+    [[nodiscard]] Result<void> add_tensions(gpu::Device& device, const Scene& scene);
     /// Uploads the scene's objects again after they were replaced by objects with the same submeshes and
     /// materials. Textures stay, gains become 1. After an error, upload the whole scene.
     [[nodiscard]] Result<void> replace_objects(gpu::Device& device, const Scene& scene);
@@ -31,6 +33,7 @@ class SceneOnDevice {
     [[nodiscard]] Result<void> replace_gains(gpu::Device& device, std::span<const std::vector<Vec3>> gains);
 
     [[nodiscard]] const std::vector<gpu::Draw>& draws() const { return draws_; }
+    [[nodiscard]] std::vector<const gpu::Geometry*> geometries() const;
     [[nodiscard]] bool has(gpu::DrawClass draw_class) const;
     /// Warnings about its maps, one line each.
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
@@ -55,6 +58,7 @@ class SceneOnDevice {
     Result<void> upload_maps(gpu::Device& device, const Scene& scene);
     Result<void> upload_objects(gpu::Device& device, const Scene& scene);
     Result<void> upload_tensions(gpu::Device& device, const Scene& scene);
+    Result<void> put_tensions(gpu::Device& device, const Scene& scene);
     Result<void> upload_environment(gpu::Device& device, const Scene& scene);
 
     // Pointers stay valid when the whole moves: textures and geometries live in node-based containers.

@@ -60,7 +60,6 @@ class ScenePoser {
     /// Cost: docs/figures.md#moving-heads.
     [[nodiscard]] Result<void> pose(const Pose& pose, Scene& scene) const;
 
-  private:
     struct Posed {
         size_t object = 0;
         std::optional<MeshPoser> file;  ///< none for subjects
@@ -68,6 +67,12 @@ class ScenePoser {
         RestAreas areas;
         std::vector<Vec4> untinted;
     };
+    /// The objects that it poses.
+    [[nodiscard]] std::span<const Posed> all() const { return all_; }
+    /// Whether their colours follow the pose.
+    [[nodiscard]] bool moves_colors() const { return tint_.has_value(); }
+
+  private:
     std::vector<Posed> all_;
     std::optional<BloodTint> tint_;
 };

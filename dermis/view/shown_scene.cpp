@@ -1,6 +1,7 @@
 #include "dermis/view/shown_scene.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "dermis/base/text.h"
 #include "dermis/image/colour.h"
@@ -27,6 +28,7 @@ void ShownScene::put(Stage stage, Scene file_look, const Pose& pose, Model& mode
 // Forgets what is known of the surface in another pose.
 void ShownScene::set_pose(const Pose& loaded) {
     loaded_pose_ = drawn_pose_ = loaded;
+    on_device_alone_ = false;
     poser_.reset();
     probe_.reset();
     probe_key_.clear();
@@ -57,6 +59,8 @@ Result<void> ShownScene::follow_motion() {
         DERMIS_TRY_ASSIGN(ScenePoser poser, ScenePoser::create(scene));
         poser_.emplace(std::move(poser));
     }
+    DERMIS_TRY_ASSIGN(on_device_alone_, stage_->pose_on_device(*poser_, pose));
+    if (on_device_alone_) return {};
     DERMIS_TRY(poser_->pose(pose, scene));
     return stage_->vertices_moved();
 }
@@ -136,6 +140,8 @@ const std::string& ShownScene::probe(Vec2 place, PictureSize size) {
     probe_key_ = key;
     probe_text_.clear();
     if (!probe_) {
+        if (std::exchange(on_device_alone_, false) && !poser_->pose(drawn_pose_, stage_->scene()))
+            return probe_text_;
         Result<Probe> probe = Probe::create(scene);
         if (!probe) return probe_text_;
         probe_.emplace(std::move(*probe));

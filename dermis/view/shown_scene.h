@@ -63,6 +63,7 @@ class ShownScene {
     Vec3 drawn_tint_;  ///< what the materials on the device were made with
     std::string probe_text_, probe_key_;
     Pose loaded_pose_, drawn_pose_;
+    bool on_device_alone_ = false;     ///< the scene's vertices are not in drawn_pose_ yet
     std::optional<ScenePoser> poser_;  ///< of the objects in loaded_pose_; made when they move
 };
 

@@ -146,6 +146,12 @@ Result<void> Stage::environment_changed() {
     return sides_[0].renderer->environment_changed();
 }
 
+Result<bool> Stage::pose_on_device(const ScenePoser& poser, const Pose& pose) {
+    invalidate();
+    if (sides_[1].renderer) sides_[1].renderer->drop_history();
+    return sides_[0].renderer->pose_on_device(poser, pose);
+}
+
 Result<void> Stage::vertices_moved() {
     invalidate();
     if (sides_[1].renderer) sides_[1].renderer->drop_history();

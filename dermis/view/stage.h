@@ -64,6 +64,8 @@ class Stage {
     void skin_changed();
     [[nodiscard]] Result<void> environment_changed();
 
+    /// The pose that the next pictures show (Renderer::pose_on_device).
+    [[nodiscard]] Result<bool> pose_on_device(const ScenePoser& poser, const Pose& pose);
     /// The vertices of the scene's objects have moved (Renderer::vertices_moved).
     [[nodiscard]] Result<void> vertices_moved();
     /// Takes objects, bounds and warnings of the same scene in another pose or with its bakes.

@@ -38,7 +38,7 @@ std::vector<Instance> Instances::in_pose(const Pose& pose) {
     instances_.clear();
     joints_of_skin_.clear();
     target_weights_.clear();
-    vertices_ = indices_ = 0;
+    placements_ = vertices_ = indices_ = 0;
     node_poses_ = sample_clip(document_, pose);
     tree_ = read_nodes(document_, to_mm_, node_poses_);
     if (!checked_) check_size();
@@ -113,6 +113,7 @@ void Instances::add_mesh(uint64_t index, const Placement& placement, const Pose&
         if (vertices_ > document_.max_vertices || indices_ > 6 * document_.max_vertices)
             return primitives[i].fail("more triangles than dermis loads");
         instances_.push_back({.name = name,
+                              .placement = placements_,
                               .source = primitives[i],
                               .primitive = primitive,
                               .material = material,
@@ -120,6 +121,7 @@ void Instances::add_mesh(uint64_t index, const Placement& placement, const Pose&
                               .joints = placement.joints,
                               .morph = morph});
     }
+    ++placements_;
 }
 
 Primitive* Instances::primitive_of(uint64_t mesh, size_t index, uint32_t material, size_t joint_count) {

@@ -19,8 +19,9 @@ inline constexpr uint32_t kDefaultMaterial = ~0u;
 
 /// A primitive of a node. The pointers stay valid while the Instances live, `joints` until the next pose.
 struct Instance {
-    std::string name;  ///< of its mesh, else of its node
-    JsonView source;   ///< of the primitive
+    std::string name;      ///< of its mesh, else of its node
+    size_t placement = 0;  ///< a number that primitives of one node share
+    JsonView source;       ///< of the primitive
     Primitive* primitive = nullptr;
     uint32_t material = kDefaultMaterial;
     Affine world;
@@ -65,6 +66,7 @@ class Instances {
     std::map<std::tuple<uint64_t, size_t, size_t>, std::optional<Primitive>> primitives_;  // none: skipped
     std::vector<Instance> instances_;
     TargetWeights target_weights_;
+    size_t placements_ = 0;
     size_t vertices_ = 0, indices_ = 0;  // of the instances so far
     bool checked_ = false;
 };

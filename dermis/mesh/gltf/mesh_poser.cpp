@@ -2,8 +2,10 @@
 
 #include "dermis/mesh/mesh_poser.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -21,10 +23,132 @@ struct MeshPoser::State {
     std::optional<SmoothNormals> smooth;
 
     [[nodiscard]] Result<PosedVertices> pose(const Pose& pose);
+    [[nodiscard]] Result<VertexMotion> motion();
+    [[nodiscard]] Result<MotionState> state(const Pose& pose);
 
   private:
+    [[nodiscard]] std::vector<gltf::Instance> drawn(const Pose& pose);
     [[nodiscard]] Result<void> failure() const;
 };
+
+namespace {
+
+// Where the weights and matrices of each instance begin in a MotionState. Matrix 0 is of vertices that follow
+// no joint.
+struct Slots {
+    std::vector<uint32_t> weight, matrix;
+    uint32_t weights = 0, matrices = 1;
+
+    explicit Slots(std::span<const gltf::Instance> instances) {
+        std::map<std::pair<size_t, size_t>, uint32_t> of_placement;  // and number of targets
+        std::map<std::pair<const gltf::Affine*, size_t>, uint32_t> of_skin;
+        for (const gltf::Instance& instance : instances) {
+            const size_t targets = instance.source["targets"].size();
+            const auto [weights_at, first] = of_placement.try_emplace({instance.placement, targets}, weights);
+            if (first) weights += uint32_t(targets);
+            const bool skinned = instance.primitive->influences.per_vertex > 0;
+            const auto key = skinned ? std::pair(instance.joints.data(), size_t(0))
+                                     : std::pair<const gltf::Affine*, size_t>(nullptr, instance.placement);
+            const auto [matrices_at, new_skin] = of_skin.try_emplace(key, matrices);
+            if (new_skin) matrices += skinned ? uint32_t(instance.joints.size()) : 1;
+            weight.push_back(weights_at->second);
+            matrix.push_back(matrices_at->second);
+        }
+    }
+};
+
+std::array<double, 12> rows_of(const gltf::Affine& affine) {
+    std::array<double, 12> rows{};
+    for (size_t r = 0; r < 3; ++r) {
+        for (size_t c = 0; c < 3; ++c) rows[4 * r + c] = affine.linear(Eigen::Index(r), Eigen::Index(c));
+        rows[4 * r + 3] = affine.offset[Eigen::Index(r)];
+    }
+    return rows;
+}
+
+void append_influences(const gltf::Primitive& primitive, size_t vertex, uint32_t matrix,
+                       VertexMotion& motion) {
+    const gltf::Influences& all = primitive.influences;
+    motion.first_influence.push_back(uint32_t(motion.influences.size()));
+    if (all.per_vertex == 0) return motion.influences.push_back({matrix, 1});
+    for (size_t i = vertex * all.per_vertex; i < (vertex + 1) * all.per_vertex; ++i)
+        if (all.weights[i] != 0) motion.influences.push_back({matrix + all.joints[i], all.weights[i]});
+    if (motion.influences.size() == motion.first_influence.back()) motion.influences.push_back({0, 1});
+}
+
+// Of the vertices of one primitive, by vertex and in the order of the targets.
+void append_changes(gltf::Document& document, const gltf::Instance& instance, uint32_t weight,
+                    VertexMotion& motion) {
+    gltf::Primitive& primitive = *instance.primitive;
+    std::vector<std::vector<VertexMotion::Change>> of_vertex(primitive.positions.size() / 3);
+    const size_t targets = instance.source["targets"].size();
+    for (uint32_t i = 0; i < targets && !instance.source.failed(); ++i) {
+        const gltf::MorphTarget& target = gltf::morph_target(document, instance.source, primitive, i);
+        motion.targets_turn |= target.has_normals || !target.tangents.empty();
+        for (size_t k = 0; k < target.moved.size() && !instance.source.failed(); ++k)
+            of_vertex[target.moved[k]].push_back({weight + i, target.changes[k]});
+    }
+    for (const auto& changes : of_vertex) {
+        motion.first_change.push_back(uint32_t(motion.changes.size()));
+        motion.changes.insert(motion.changes.end(), changes.begin(), changes.end());
+    }
+}
+
+}  // namespace
+
+// Without those that have no triangles.
+std::vector<gltf::Instance> MeshPoser::State::drawn(const Pose& pose) {
+    document.messages.error.reset();
+    std::vector<gltf::Instance> all = instances->in_pose(pose);
+    std::erase_if(all, [](const gltf::Instance& one) { return one.primitive->indices.empty(); });
+    return all;
+}
+
+Result<VertexMotion> MeshPoser::State::motion() {
+    VertexMotion motion;
+    const std::vector<gltf::Instance> all = drawn({});
+    DERMIS_TRY(failure());
+    const Slots slots(all);
+    for (size_t k = 0; k < all.size(); ++k) {
+        const gltf::Primitive& primitive = *all[k].primitive;
+        const size_t first = motion.positions.size(), count = primitive.positions.size() / 3;
+        for (size_t i = 0; i < count; ++i) {
+            const auto vec3 = [&](const std::vector<float>& v) {
+                return v.empty() ? Vec3{} : Vec3{v[3 * i], v[3 * i + 1], v[3 * i + 2]};
+            };
+            motion.positions.push_back(vec3(primitive.positions));
+            motion.normals.push_back(vec3(primitive.normals));
+            append_influences(primitive, i, slots.matrix[k], motion);
+        }
+        append_changes(document, all[k], slots.weight[k], motion);
+        DERMIS_TRY(failure());
+        const gltf::Affine& transform =
+            primitive.influences.per_vertex == 0 ? all[k].world : all[k].joints[0];
+        gltf::append_triangles(primitive.indices, first, transform.linear.determinant() < 0, motion.indices);
+    }
+    motion.first_change.push_back(uint32_t(motion.changes.size()));
+    motion.first_influence.push_back(uint32_t(motion.influences.size()));
+    return motion;
+}
+
+Result<MotionState> MeshPoser::State::state(const Pose& pose) {
+    const std::vector<gltf::Instance> all = drawn(pose);
+    DERMIS_TRY(failure());
+    const Slots slots(all);
+    MotionState state{.target_weights = instances->target_weights()};
+    state.weights.resize(slots.weights);
+    state.matrices.resize(slots.matrices, rows_of(instances->to_mm()));
+    for (size_t k = 0; k < all.size(); ++k) {
+        const size_t targets = std::min(all[k].morph.size(), all[k].source["targets"].size());
+        std::copy_n(all[k].morph.begin(), targets, state.weights.begin() + slots.weight[k]);
+        if (all[k].primitive->influences.per_vertex == 0)
+            state.matrices[slots.matrix[k]] = rows_of(all[k].world);
+        else
+            for (size_t j = 0; j < all[k].joints.size(); ++j)
+                state.matrices[slots.matrix[k] + j] = rows_of(all[k].joints[j]);
+    }
+    return state;
+}
 
 Result<void> MeshPoser::State::failure() const {
     if (!document.messages.error) return {};
@@ -32,15 +156,14 @@ Result<void> MeshPoser::State::failure() const {
 }
 
 Result<PosedVertices> MeshPoser::State::pose(const Pose& pose) {
-    document.messages.error.reset();
     std::vector<uint32_t> indices;
     std::vector<Vec3> unmorphed_mm;
     mesh.positions_mm.clear(), mesh.normals.clear(), mesh.tangents.clear();
     indices.reserve(mesh.indices.size());
     bool any_normals = false, any_unmorphed = false;
-    for (const gltf::Instance& instance : instances->in_pose(pose)) {
+    for (const gltf::Instance& instance : drawn(pose)) {
         const gltf::Primitive& primitive = *instance.primitive;
-        if (primitive.indices.empty() || document.messages.error) continue;
+        if (document.messages.error) continue;
         const size_t first = mesh.positions_mm.size();
         const gltf::PlacedVertices placed =
             gltf::place_vertices(document, instance, instances->to_mm(), mesh, unmorphed_mm);
@@ -76,6 +199,12 @@ Result<MeshPoser> MeshPoser::create(std::span<const std::byte> bytes, const std:
 
 Result<PosedVertices> MeshPoser::pose(const Pose& pose) const {
     return state_->pose(pose);
+}
+Result<VertexMotion> MeshPoser::motion() const {
+    return state_->motion();
+}
+Result<MotionState> MeshPoser::state(const Pose& pose) const {
+    return state_->state(pose);
 }
 
 MeshPoser::MeshPoser(std::unique_ptr<State> state) : state_(std::move(state)) {}

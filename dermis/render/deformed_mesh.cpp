@@ -1,0 +1,263 @@
+// 1. Vertices of the file that move together in every pose get a place, and targets changes by blocks of
+// places.
+// 2. Every vertex of the scene's mesh gets the triangles around it.
+
+#include "dermis/render/deformed_mesh.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <span>
+#include <string_view>
+
+#include "dermis/mesh/normals.h"
+#include "dermis/mesh/surface_frame.h"
+#include "dermis/mesh/topology.h"
+#include "shaders/include/posing.h"
+
+namespace dermis::inline render {
+namespace {
+
+// Appends numbers as 32-bit words.
+struct Words {
+    std::vector<uint32_t> all;
+
+    template <class... Values>
+    void add(Values... values) {
+        (put(values), ...);
+    }
+
+  private:
+    void put(uint32_t value) { all.push_back(value); }
+    void put(float value) { all.push_back(std::bit_cast<uint32_t>(value)); }
+    void put(Vec3 v) { add(v.x, v.y, v.z); }
+    void put(Vec4 v) { add(v.x, v.y, v.z, v.w); }
+};
+
+template <class Element>
+size_t hash_of(const std::vector<Element>& list, uint32_t first, uint32_t end) {
+    return std::hash<std::string_view>()(
+        {reinterpret_cast<const char*>(list.data() + first), (end - first) * sizeof(Element)});
+}
+
+// By position, changes and influences; the lists by a hash of 64 bits.
+Weld weld_motion(const VertexMotion& motion) {
+    std::vector<uint32_t> words;
+    for (size_t v = 0; v < motion.positions.size(); ++v) {
+        const Vec3 p = motion.positions[v];
+        for (const float value : {p.x, p.y, p.z}) words.push_back(weld_key(value));
+        for (const size_t hash :
+             {hash_of(motion.changes, motion.first_change[v], motion.first_change[v + 1]),
+              hash_of(motion.influences, motion.first_influence[v], motion.first_influence[v + 1])}) {
+            words.push_back(uint32_t(hash));
+            words.push_back(uint32_t(uint64_t(hash) >> 32));
+        }
+    }
+    return weld_records(words, 7);
+}
+
+// The triangle of each file's corner among the scene's, which are in the same order, some hidden: its corner
+// there, or kHidden.
+constexpr uint32_t kHidden = ~0u;
+std::vector<uint32_t> drawn_corners(const VertexMotion& motion, const Mesh& mesh) {
+    std::vector<uint32_t> drawn(motion.indices.size(), kHidden);
+    size_t next = 0;
+    for (size_t i = 0; i < drawn.size() && next < mesh.indices.size(); i += 3) {
+        const auto is_same = [&](size_t k) {
+            return mesh.file_vertices[mesh.indices[next + k]] == motion.indices[i + k];
+        };
+        if (!is_same(0) || !is_same(1) || !is_same(2)) continue;
+        for (size_t k = 0; k < 3; ++k) drawn[i + k] = uint32_t(next++);
+    }
+    return drawn;
+}
+
+// A triangle at a vertex, by its corner in the file and in the scene (kHidden: in that list it is not).
+struct FanCorner {
+    uint32_t in_file = kHidden, in_scene = kHidden;
+    uint32_t kinds = 0;
+};
+
+class ArrayMaker {
+  public:
+    ArrayMaker(const VertexMotion& motion, const Mesh& mesh, const SurfaceAtRest& rest,
+               std::span<const Vec3> at_rest_mm)
+        : motion_(motion), mesh_(mesh), rest_(rest), at_rest_mm_(at_rest_mm), weld_(weld_motion(motion)) {}
+
+    DeformArrays run() {
+        made_.places = weld_.count();
+        made_.vertices = uint32_t(mesh_.positions_mm.size());
+        add_places();
+        add_blocks();
+        add_vertices();
+        return std::move(made_);
+    }
+
+  private:
+    void put(const std::string& name, Words& words) {
+        made_.constant.push_back({name, std::move(words.all)});
+    }
+    [[nodiscard]] uint32_t place_of(uint32_t vertex) const { return weld_.ids[mesh_.file_vertices[vertex]]; }
+
+    void add_places() {
+        Words places, influences;
+        uint32_t count = 0;
+        for (const uint32_t v : weld_.first) {
+            places.add(motion_.positions[v], count);
+            for (uint32_t k = motion_.first_influence[v]; k < motion_.first_influence[v + 1]; ++k, ++count)
+                influences.add(motion_.influences[k].matrix, motion_.influences[k].share);
+        }
+        places.add(Vec3{}, count);
+        put("places", places), put("influences", influences);
+    }
+
+    void add_blocks() {
+        const uint32_t blocks = (made_.places + posing::kPoseBlock - 1) / posing::kPoseBlock;
+        uint32_t& targets = made_.targets = 1;
+        for (const VertexMotion::Change& change : motion_.changes)
+            targets = std::max(targets, change.weight + 1);
+        Words firsts;
+        firsts.all.assign(size_t(targets) * blocks, posing::kNoBlock);
+        std::vector<Vec3> changes;
+        for (uint32_t place = 0; place < made_.places; ++place) {
+            const uint32_t v = weld_.first[place];
+            for (uint32_t k = motion_.first_change[v]; k < motion_.first_change[v + 1]; ++k) {
+                const VertexMotion::Change& change = motion_.changes[k];
+                uint32_t& first = firsts.all[change.weight * blocks + place / posing::kPoseBlock];
+                if (first == posing::kNoBlock) {
+                    first = uint32_t(changes.size());
+                    changes.resize(changes.size() + posing::kPoseBlock);
+                }
+                changes[first + place % posing::kPoseBlock] += change.change;
+            }
+        }
+        Words words;
+        for (const Vec3 change : changes) words.add(change);
+        put("blocks", firsts), put("changes", words);
+    }
+
+    // The set of joined corners of each file's corner, and the corners of each set.
+    void join() {
+        const JoinedCorners joined = join_corners(weld_, motion_.indices);
+        std::vector<uint32_t> set_of_corner(motion_.indices.size());
+        for (uint32_t place = 0; place < weld_.count(); ++place) {
+            const auto around = joined.table.corners(place), leaders = joined.leaders_around(place);
+            for (size_t i = 0; i < around.size(); ++i) set_of_corner[around[i]] = around[leaders[i]];
+        }
+        set_of_vertex_.assign(motion_.positions.size(), kHidden);
+        for (size_t corner = set_of_corner.size(); corner-- > 0;)
+            set_of_vertex_[motion_.indices[corner]] = set_of_corner[corner];
+        joined_ = CornerTable(set_of_corner, set_of_corner.size());
+    }
+
+    // Vertices that differ in their normals alone share a number.
+    [[nodiscard]] std::vector<uint32_t> number_uvs(const std::vector<Vec2>& uvs) const {
+        std::vector<uint32_t> words;
+        for (uint32_t v = 0; v < uvs.size(); ++v)
+            for (const uint32_t word : {place_of(v), weld_key(uvs[v].x), weld_key(uvs[v].y)})
+                words.push_back(word);
+        return weld_records(words, 3).ids;
+    }
+
+    void add_vertices() {
+        join();
+        const std::vector<uint32_t> drawn = drawn_corners(motion_, mesh_);
+        std::vector<uint32_t> place_of_corner, beside(mesh_.positions_mm.size());
+        for (const uint32_t vertex : mesh_.indices) place_of_corner.push_back(place_of(vertex));
+        for (size_t i = mesh_.indices.size(); i-- > 0;)
+            beside[mesh_.indices[i]] = place_of_corner[next_corner(uint32_t(i))];
+        const CornerTable around(place_of_corner, weld_.count());
+        uvs_ = {.direction = number_uvs(mesh_.uvs), .atlas = number_uvs(atlas_uvs_of(mesh_))};
+        std::vector<FanCorner> fan;
+        for (uint32_t v = 0; v < made_.vertices; ++v) {
+            fan.clear();
+            if (const uint32_t set = set_of_vertex_[mesh_.file_vertices[v]]; set != kHidden)
+                for (const uint32_t corner : joined_.corners(set))
+                    fan.push_back({corner, drawn[corner], posing::kCornerJoined});
+            for (const uint32_t corner : around.corners(place_of(v))) {
+                auto same = std::ranges::find(fan, corner, &FanCorner::in_scene);
+                if (same == fan.end()) same = fan.insert(fan.end(), FanCorner{.in_scene = corner});
+                same->kinds |= posing::kCornerDrawn;
+            }
+            add_vertex(v, beside[v], fan);
+        }
+        vertices_.add(0u, corner_count_, 0u, 0.0f, Vec3{}, Vec4{}, Vec3{}, Vec3{});
+        put("vertices", vertices_), put("corners", corners_), put("steps", steps_);
+    }
+
+    void add_vertex(uint32_t v, uint32_t beside, std::span<FanCorner> fan) {
+        const uint32_t first = corner_count_, file_vertex = mesh_.file_vertices[v];
+        float rest_area = 0;
+        for (FanCorner& corner : fan) rest_area += add_corner(v, corner);
+        const SurfaceFrame frame(rest_.normals[v], rest_.directions[v]), axes({0, 0, 1}, {1, 0, 0});
+        const Vec4 t = rest_.tangents.empty() ? Vec4{1, 0, 0, 1} : rest_.tangents[v];
+        const CurvatureTensor s = rest_.curvatures_per_mm.empty()
+                                      ? CurvatureTensor{}
+                                      : moved(frame, axes, rest_.curvatures_per_mm[v]);
+        vertices_.add(place_of(v), first, beside, rest_area, motion_.normals[file_vertex],
+                      moved(frame, axes, Vec3{t.x, t.y, t.z}), t.w, s.diagonal, s.mixed);
+    }
+
+    // Twice its area at rest, if the scene draws it.
+    float add_corner(uint32_t v, FanCorner& corner) {
+        const auto file_vertex = [&](uint32_t (*step)(uint32_t)) {
+            return corner.in_file != kHidden ? motion_.indices[step(corner.in_file)]
+                                             : mesh_.file_vertices[mesh_.indices[step(corner.in_scene)]];
+        };
+        const uint32_t next = file_vertex(next_corner), previous = file_vertex(previous_corner);
+        Vec2 direction, du, dv;
+        if (corner.kinds & posing::kCornerDrawn) {
+            if (same_uvs(uvs_.direction, v, corner.in_scene))
+                take_steps(mesh_.uvs, corner.in_scene, direction, dv);
+            dv = {};
+            if (same_uvs(uvs_.atlas, v, corner.in_scene) &&
+                take_steps(atlas_uvs_of(mesh_), corner.in_scene, du, dv))
+                corner.kinds |= posing::kCornerInAtlas;
+        }
+        corners_.add(weld_.ids[next] | corner.kinds, weld_.ids[previous]);
+        steps_.add(direction.x, direction.y, du.x, du.y, dv.x, dv.y);
+        ++corner_count_;
+        if (!(corner.kinds & posing::kCornerDrawn)) return 0;
+        const Vec3 p = at_rest_mm_[mesh_.file_vertices[v]];
+        return length(cross(at_rest_mm_[next] - p, at_rest_mm_[previous] - p));
+    }
+
+    [[nodiscard]] bool same_uvs(const std::vector<uint32_t>& numbers, uint32_t v, uint32_t corner) const {
+        return !numbers.empty() && numbers[v] == numbers[mesh_.indices[corner]];
+    }
+
+    // False, and no steps, for a triangle without area in UV (vertex_uv_derivatives).
+    bool take_steps(const std::vector<Vec2>& uvs, uint32_t corner, Vec2& du, Vec2& dv) const {
+        const Vec2 uv = uvs[mesh_.indices[corner]], uv1 = uvs[mesh_.indices[next_corner(corner)]] - uv,
+                   uv2 = uvs[mesh_.indices[previous_corner(corner)]] - uv;
+        const float det = cross(uv1, uv2);
+        if (!(std::abs(det) > 1e-20f)) return false;
+        du = {uv2.y / det, -uv1.y / det};
+        dv = {-uv2.x / det, uv1.x / det};
+        return true;
+    }
+
+    const VertexMotion& motion_;
+    const Mesh& mesh_;
+    const SurfaceAtRest& rest_;
+    std::span<const Vec3> at_rest_mm_;
+    Weld weld_;                            // of the file's vertices
+    std::vector<uint32_t> set_of_vertex_;  // of the file's vertices: whose normal it has
+    CornerTable joined_ = {{}, 0};
+    struct {
+        std::vector<uint32_t> direction, atlas;
+    } uvs_;
+    Words vertices_, corners_, steps_;
+    uint32_t corner_count_ = 0;
+    DeformArrays made_;
+};
+
+}  // namespace
+
+DeformArrays deform_arrays(const VertexMotion& motion, const Mesh& mesh, const SurfaceAtRest& rest,
+                           std::span<const Vec3> at_rest_mm) {
+    return ArrayMaker(motion, mesh, rest, at_rest_mm).run();
+}
+
+}  // namespace dermis::inline render

@@ -1,0 +1,157 @@
+#include "dermis/render/deformer.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "dermis/render/deformed_mesh.h"
+#include "dermis/scene/place_mesh.h"
+
+namespace dermis::inline render {
+namespace {
+
+// No buffer is empty: an array without elements has one of zeros.
+std::vector<std::byte> bytes_of(const auto& values) {
+    const auto view = std::as_bytes(std::span(values));
+    std::vector<std::byte> bytes(view.begin(), view.end());
+    constexpr size_t kElement = 16;
+    if (bytes.empty()) bytes.resize(kElement);
+    return bytes;
+}
+
+Pass pose_pass(const std::string& mesh, const std::string& what, uint32_t threads,
+               std::vector<std::pair<std::string, std::string>> buffers) {
+    Pass pass = {.name = "pose " + mesh + what,
+                 .kind = PassKind::compute,
+                 .shader = "renderer/pose_" + what + ".comp",
+                 .threads = threads};
+    for (auto& [binding, buffer] : buffers) pass.buffers.emplace_back(std::move(binding), mesh + buffer);
+    return pass;
+}
+
+// `mesh` precedes the names of its buffers.
+std::vector<Pass> passes_of(const std::string& mesh, const DeformArrays& made) {
+    return {pose_pass(mesh, "places", made.places,
+                      {{"Places", "places"},
+                       {"Blocks", "blocks"},
+                       {"Changes", "changes"},
+                       {"Influences", "influences"},
+                       {"Targets", "targets"},
+                       {"Matrices", "matrices"},
+                       {"Positions", "positions"},
+                       {"Unmorphed", "unmorphed"}}),
+            pose_pass(mesh, "vertices", made.vertices,
+                      {{"Vertices", "vertices"},
+                       {"Corners", "corners"},
+                       {"Steps", "steps"},
+                       {"Places", "places"},
+                       {"Influences", "influences"},
+                       {"Matrices", "matrices"},
+                       {"Positions", "positions"},
+                       {"Unmorphed", "unmorphed"},
+                       {"PositionStream", "position_mm"},
+                       {"NormalStream", "normal"},
+                       {"TangentStream", "tangent"},
+                       {"DiagonalStream", "curvature_diagonal_per_mm"},
+                       {"MixedStream", "curvature_mixed_per_mm"},
+                       {"DuStream", "du_mm"},
+                       {"DvStream", "dv_mm"},
+                       {"TensionStream", "tension"}})};
+}
+
+struct ActiveTarget {
+    uint32_t target = 0;
+    float weight = 0;
+};
+
+std::vector<ActiveTarget> active_targets(std::span<const float> weights, uint32_t targets) {
+    std::vector<ActiveTarget> active;
+    for (uint32_t i = 0; i < std::min<size_t>(weights.size(), targets); ++i)
+        if (weights[i] != 0) active.push_back({i, weights[i]});
+    return active;
+}
+
+// 12 numbers each, after the placement.
+std::vector<float> placed_matrices(const MotionState& state, const Placement& placement) {
+    Placement turn = placement;
+    turn.translation_mm = {};
+    Mesh axes{.positions_mm = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    place_mesh(axes, turn);
+    const auto part = [](Vec3 v, size_t i) { return double(i == 0 ? v.x : i == 1 ? v.y : v.z); };
+    std::vector<float> numbers;
+    for (const std::array<double, 12>& matrix : state.matrices)
+        for (size_t row = 0; row < 3; ++row)
+            for (size_t column = 0; column < 4; ++column) {
+                double sum = column == 3 ? part(placement.translation_mm, row) : 0;
+                for (size_t k = 0; k < 3; ++k)
+                    sum += part(axes.positions_mm[k], row) * matrix[4 * k + column];
+                numbers.push_back(float(sum));
+            }
+    return numbers;
+}
+
+}  // namespace
+
+Result<std::optional<Deformer>> Deformer::create(gpu::Device& device, gpu::ShaderSource shaders,
+                                                 const Scene& scene, const ScenePoser& poser,
+                                                 std::span<const gpu::Geometry* const> geometries) {
+    constexpr std::nullopt_t kOnCpu = std::nullopt;
+    if (poser.moves_colors() || scene.rest_bakes.any()) return std::optional<Deformer>(kOnCpu);
+    DERMIS_TRY_ASSIGN(gpu::Executor executor, gpu::Executor::create(device, std::move(shaders)));
+    Deformer deformer(std::move(executor));
+    for (const ScenePoser::Posed& posed : poser.all()) {
+        if (!posed.file) return std::optional<Deformer>(kOnCpu);
+        DERMIS_TRY_ASSIGN(const VertexMotion motion, posed.file->motion());
+        if (motion.targets_turn) return std::optional<Deformer>(kOnCpu);
+        const SceneObject& object = scene.objects[posed.object];
+        DERMIS_TRY_ASSIGN(PosedVertices at_rest, posed.file->pose({}));
+        Mesh placed{.positions_mm = std::move(at_rest.positions_mm)};
+        place_mesh(placed, object.placement);
+        const DeformArrays made = deform_arrays(motion, object.mesh, posed.rest, placed.positions_mm);
+        DERMIS_TRY(deformer.add(device, posed, object.placement, *geometries[posed.object], made));
+    }
+    return std::optional<Deformer>(std::move(deformer));
+}
+
+Result<void> Deformer::add(gpu::Device& device, const ScenePoser::Posed& posed, const Placement& placement,
+                           const gpu::Geometry& geometry, const DeformArrays& made) {
+    DeformedMesh mesh{.poser = &*posed.file,
+                      .placement = placement,
+                      .geometry = &geometry,
+                      .name = std::to_string(meshes_.size()) + " ",
+                      .targets = made.targets};
+    const auto put = [&](const std::string& name, const auto& values) -> Result<void> {
+        DERMIS_TRY_ASSIGN(gpu::Array array, gpu::Array::upload(device, name, bytes_of(values)));
+        mesh.arrays.emplace(name, std::move(array));
+        return {};
+    };
+    for (const DeformArray& array : made.constant) DERMIS_TRY(put(array.name, array.words));
+    // What one pass writes for the next.
+    for (const char* name : {"positions", "unmorphed"}) DERMIS_TRY(put(name, std::vector<Vec3>(made.places)));
+    std::ranges::move(passes_of(mesh.name, made), std::back_inserter(list_.passes));
+    meshes_.push_back(std::move(mesh));
+    return {};
+}
+
+Result<void> Deformer::pose(const Pose& pose) {
+    gpu::FrameInputs inputs = {.width = 1, .height = 1};
+    std::vector<gpu::Array> streamed;
+    streamed.reserve(2 * meshes_.size());
+    for (const DeformedMesh& mesh : meshes_) {
+        for (const auto& [name, array] : mesh.arrays) inputs.buffers[mesh.name + name] = {.array = &array};
+        for (const char* stream : {"position_mm", "normal", "tangent", "curvature_diagonal_per_mm",
+                                   "curvature_mixed_per_mm", "du_mm", "dv_mm", "tension"})
+            inputs.buffers[mesh.name + stream] = {.geometry = mesh.geometry, .stream = stream};
+        DERMIS_TRY_ASSIGN(const MotionState state, mesh.poser->state(pose));
+        const auto stream = [&](const std::string& name, const auto& values) {
+            streamed.push_back(gpu::Array::streamed(bytes_of(values)));
+            inputs.buffers[mesh.name + name] = {.array = &streamed.back()};
+        };
+        stream("targets", active_targets(state.weights, mesh.targets));
+        stream("matrices", placed_matrices(state, mesh.placement));
+    }
+    const Result<uint64_t> submitted = executor_.submit(list_, inputs);
+    return submitted ? Result<void>() : submitted.error();
+}
+
+}  // namespace dermis::inline render

@@ -1,0 +1,166 @@
+// Meshes posed on the device against the poser on the CPU: streams of the geometry, and pictures.
+
+#include "dermis/render/deformer.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "dermis/scene/load_scene.h"
+#include "dermis/scene/pose_scene.h"
+#include "render/render_test.h"
+#include "support/moving_sheet.h"
+#include "support/temporary_directory.h"
+
+namespace dermis {
+namespace {
+
+// The largest distance between the vectors of a stream and those of the CPU, and the mean.
+struct Difference {
+    double largest = 0, mean = 0;
+};
+
+// Mean over all numbers.
+double mean_difference(const Image& a, const Image& b) {
+    double sum = 0;
+    for (int y = 0; y < a.height; ++y)
+        for (int x = 0; x < a.width; ++x)
+            for (int c = 0; c < 3; ++c) sum += std::abs(a.at(x, y, c) - b.at(x, y, c));
+    return sum / (3.0 * a.width * a.height);
+}
+
+class DeformerTest : public RenderTest {
+  protected:
+    static Scene loaded(const std::string& path, const std::vector<SceneWord>& words = {}) {
+        Result<Scene> scene = load_scene(path, {.words = words});
+        EXPECT_TRUE(scene) << scene.error().message;
+        if (!scene) return {};
+        EXPECT_TRUE(complete_scene(*scene));
+        return std::move(*scene);
+    }
+
+    std::string sheet() const {
+        const auto path = directory_.path / "sheet.gltf";
+        EXPECT_TRUE(write_text_file(path, test::moving_sheet()));
+        return path.string();
+    }
+
+    // What the device has against what the CPU uploads, by stream.
+    static std::map<std::string, Difference> differences(const Scene& rest, const Pose& pose) {
+        Scene on_device = rest, on_cpu = rest;
+        Renderer renderer = make_renderer(on_device), other = make_renderer(on_cpu);
+        const auto device_poser = ScenePoser::create(on_device), cpu_poser = ScenePoser::create(on_cpu);
+        EXPECT_TRUE(device_poser && cpu_poser);
+        const Result<bool> posed = renderer.pose_on_device(*device_poser, pose);
+        EXPECT_TRUE(posed && *posed) << (posed ? "only the CPU" : posed.error().message);
+        EXPECT_TRUE(cpu_poser->pose(pose, on_cpu));
+        EXPECT_TRUE(other.vertices_moved());
+        EXPECT_EQ(on_device.objects[0].mesh.positions_mm, rest.objects[0].mesh.positions_mm);
+        std::map<std::string, Difference> found;
+        for (const auto& [stream, components] : kStreams)
+            for (size_t i = 0; i < rest.objects.size(); ++i)
+                add(*renderer.geometries()[i], *other.geometries()[i], stream, components, found[stream]);
+        return found;
+    }
+
+    static void add(const gpu::Geometry& one, const gpu::Geometry& other, const std::string& stream,
+                    size_t components, Difference& difference) {
+        const auto a = one.read(device(), stream), b = other.read(device(), stream);
+        ASSERT_TRUE(a && b) << stream;
+        ASSERT_EQ(a->size(), b->size());
+        ASSERT_FALSE(a->empty());
+        for (size_t i = 0; i < a->size(); i += components) {
+            double squared = 0;
+            for (size_t k = 0; k < components; ++k) squared += std::pow((*a)[i + k] - (*b)[i + k], 2);
+            difference.largest = std::max(difference.largest, std::sqrt(squared));
+            difference.mean += std::sqrt(squared) / double(a->size() / components);
+        }
+    }
+
+    inline static const std::vector<std::pair<std::string, size_t>> kStreams = {
+        {"position_mm", 3},
+        {"normal", 3},
+        {"tangent", 4},
+        {"curvature_diagonal_per_mm", 3},
+        {"curvature_mixed_per_mm", 3},
+        {"du_mm", 3},
+        {"dv_mm", 3},
+        {"tension", 1}};
+    // As deformer.h states them.
+    inline static const std::map<std::string, double> kMostDifference = {{"position_mm", 1e-4},
+                                                                         {"normal", 1e-3},
+                                                                         {"tangent", 1e-3},
+                                                                         {"curvature_diagonal_per_mm", 5e-4},
+                                                                         {"curvature_mixed_per_mm", 5e-4},
+                                                                         {"du_mm", 0.2},
+                                                                         {"dv_mm", 0.2},
+                                                                         {"tension", 2e-4}};
+    TemporaryDirectory directory_;
+};
+
+}  // namespace
+
+TEST_F(DeformerTest, a_sheet_with_a_target_and_a_node_that_turns_is_that_of_the_cpu) {
+    const auto scene = directory_.path / "sheet.toml";
+    ASSERT_TRUE(write_text_file(scene, "[[mesh]]\nfile = \"" + sheet() +
+                                           "\"\nscale = 0.5\nrotate_deg = [20, -30, 10]\n"
+                                           "translate_mm = [5, 6, 7]\n"));
+    const Scene rest = loaded(scene.string());
+    for (const double time_s : {0.0, 0.7, 1.5, 2.0})
+        for (const auto& [stream, found] : differences(rest, {.clip = "nod", .time_s = time_s}))
+            EXPECT_LT(found.largest, stream.ends_with("_mm") ? 1e-3 : 1e-4) << stream << " at " << time_s;
+}
+
+TEST_F(DeformerTest, ICT_s_face_is_that_of_the_cpu) {
+    const std::filesystem::path file = test::asset("ict_face/ict_moving.glb");
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is needed";
+    const Scene rest = loaded(file.string());
+    for (const std::string clip : {"smile", "talk", "frown"})
+        for (const auto& [stream, found] : differences(rest, {.clip = clip, .time_s = 1.2})) {
+            EXPECT_LT(found.largest, kMostDifference.at(stream)) << stream << " of " << clip;
+            EXPECT_LT(found.mean, kMostDifference.at(stream) / 20) << stream << " of " << clip;
+        }
+}
+
+TEST_F(DeformerTest, a_scene_loaded_in_a_pose_goes_back_to_rest) {
+    const Scene posed = loaded(sheet(), {{"animation.clip", "nod"}, {"animation.time_s", "1.5"}});
+    for (const auto& [stream, found] : differences(posed, {}))
+        EXPECT_LT(found.largest, stream.ends_with("_mm") ? 1e-3 : 1e-4) << stream;
+}
+
+TEST_F(DeformerTest, a_picture_is_that_after_an_upload) {
+    Scene one = loaded(sheet()), other = loaded(sheet());
+    Renderer on_device = make_renderer(one), on_cpu = make_renderer(other);
+    const auto device_poser = ScenePoser::create(one), cpu_poser = ScenePoser::create(other);
+    ASSERT_TRUE(device_poser && cpu_poser);
+    const Technique& technique = built_in_technique("preintegrated");
+    const DrawSettings settings = {.width = 64, .height = 64};
+    const Image rest = radiance(on_device, technique, settings);
+    (void)radiance(on_cpu, technique, settings);  // what is baked from the shape is of the rest pose, too
+    for (const double time_s : {1.5, 0.2}) {
+        const Pose pose = {.clip = "nod", .time_s = time_s};
+        const Result<bool> posed = on_device.pose_on_device(*device_poser, pose);
+        ASSERT_TRUE(posed && *posed);
+        ASSERT_TRUE(cpu_poser->pose(pose, other));
+        ASSERT_TRUE(on_cpu.vertices_moved());
+        const Image a = radiance(on_device, technique, settings);
+        EXPECT_LT(mean_difference(a, radiance(on_cpu, technique, settings)), 1e-3) << time_s;
+        EXPECT_GT(mean_difference(a, rest), 1e-2) << time_s;
+    }
+    ASSERT_TRUE(on_device.has_tension());
+}
+
+TEST_F(DeformerTest, a_head_made_by_code_is_left_to_the_cpu) {
+    Scene scene = load("builtin:bust");
+    Renderer renderer = make_renderer(scene);
+    const auto poser = ScenePoser::create(scene);
+    ASSERT_TRUE(poser) << poser.error().message;
+    const Result<bool> posed = renderer.pose_on_device(*poser, {.morph = {{"smile", 1.0f}}});
+    ASSERT_TRUE(posed) << posed.error().message;
+    EXPECT_FALSE(*posed);
+    EXPECT_FALSE(renderer.has_tension());
+}
+
+}  // namespace dermis
