@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "cli/run_program.h"
 #include "dermis/scene/load_scene.h"
 #include "dermis/scene/pose_scene.h"
 #include "render/render_test.h"
@@ -45,6 +46,16 @@ class DeformerTest : public RenderTest {
         const auto path = directory_.path / "sheet.gltf";
         EXPECT_TRUE(write_text_file(path, test::moving_sheet()));
         return path.string();
+    }
+
+    /// Whether the device poses the scene, in this pose.
+    static bool is_posed_on_device(const Scene& scene, const Pose& pose) {
+        Renderer renderer = make_renderer(scene);
+        const auto poser = ScenePoser::create(scene);
+        EXPECT_TRUE(poser) << poser.error().message;
+        const Result<bool> posed = renderer.pose_on_device(*poser, pose);
+        EXPECT_TRUE(posed) << posed.error().message;
+        return posed && *posed;
     }
 
     // What the device has against what the CPU uploads, by stream.
@@ -152,15 +163,47 @@ TEST_F(DeformerTest, a_picture_is_that_after_an_upload) {
     ASSERT_TRUE(on_device.has_tension());
 }
 
-TEST_F(DeformerTest, a_head_made_by_code_is_left_to_the_cpu) {
-    Scene scene = load("builtin:bust");
-    Renderer renderer = make_renderer(scene);
-    const auto poser = ScenePoser::create(scene);
-    ASSERT_TRUE(poser) << poser.error().message;
-    const Result<bool> posed = renderer.pose_on_device(*poser, {.morph = {{"smile", 1.0f}}});
-    ASSERT_TRUE(posed) << posed.error().message;
-    EXPECT_FALSE(*posed);
-    EXPECT_FALSE(renderer.has_tension());
+// Nodes, weights and skins of 4 to 16 influences; targets with normals are the CPU's.
+TEST_F(DeformerTest, files_of_every_kind_of_motion_are_those_of_the_cpu) {
+    if (!has_program("python3")) GTEST_SKIP() << "python3 is needed to write the files";
+    const std::string folder = directory_.path.string();
+    const ProgramResult written =
+        run_shell("python3 " DERMIS_SOURCE_DIR "/tests/mesh/gltf_pose.py write " + folder, folder);
+    ASSERT_EQ(written.exit_code, 0) << written.err;
+    int on_device = 0, on_cpu = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.path().extension() != ".glb") continue;
+        const Scene rest = loaded(entry.path().string());
+        const Pose pose = {.clip = "move", .time_s = 0.9};
+        if (!is_posed_on_device(rest, pose)) {
+            ++on_cpu;
+            continue;
+        }
+        ++on_device;
+        const auto found = differences(rest, pose);
+        EXPECT_LT(found.at("position_mm").largest, 1e-6 * double(rest.bounds_radius_mm)) << entry.path();
+        for (const char* stream : {"normal", "tangent", "tension"})
+            EXPECT_LT(found.at(stream).largest, 1e-3) << stream << " of " << entry.path();
+    }
+    EXPECT_EQ(on_device, 7);
+    EXPECT_EQ(on_cpu, 3);
+}
+
+TEST_F(DeformerTest, what_the_device_cannot_pose_is_left_to_the_cpu) {
+    EXPECT_FALSE(is_posed_on_device(load("builtin:bust"), {.morph = {{"smile", 1.0f}}}));
+    const Pose nod = {.clip = "nod", .time_s = 1};
+    EXPECT_TRUE(is_posed_on_device(loaded(sheet()), nod));
+    EXPECT_FALSE(is_posed_on_device(loaded(sheet(), {{"animation.rest_bakes", "curvature"}}), nod));
+    EXPECT_FALSE(is_posed_on_device(
+        loaded(sheet(), {{"skin.melanin", "0.03"}, {"skin.blood", "0.03"}, {"skin.blood_by_tension", "1"}}),
+        nod));
+    std::string text = test::moving_sheet();
+    const std::string target = R"("targets":[{"POSITION":1})";
+    ASSERT_NE(text.find(target), std::string::npos);
+    text.replace(text.find(target), target.size(), R"("targets":[{"POSITION":1,"NORMAL":1})");
+    const auto path = directory_.path / "normals.gltf";
+    ASSERT_TRUE(write_text_file(path, text));
+    EXPECT_FALSE(is_posed_on_device(loaded(path.string()), nod)) << "targets with normals";
 }
 
 }  // namespace dermis
