@@ -10,12 +10,15 @@
 #include "dermis/engines/engine.h"
 #include "dermis/engines/web/parts.h"
 #include "dermis/image/io.h"
+#include "dermis/mesh/surface_frame.h"
 #include "dermis/mesh/write_mesh.h"
 #include "dermis/optics/fresnel.h"
 #include "dermis/render/complete_scene.h"
 #include "dermis/render/renderer.h"
 #include "dermis/render/seam_textures.h"
 #include "dermis/scene/environment.h"
+#include "dermis/scene/pose_scene.h"
+#include "dermis/scene/rig_scene.h"
 
 namespace dermis::inline engines {
 namespace {
@@ -49,6 +52,35 @@ Result<std::vector<std::vector<Vec2>>> vertex_numbers(const Mesh& mesh, const st
         pairs[3][v] = {occlusion, 0};
     }
     return pairs;
+}
+
+// The rotation from the axes to the frame of tangent, bitangent and normal, as a quaternion: head.h.
+Vec4 frame_quaternion(Vec3 normal, Vec4 tangent) {
+    const SurfaceFrame f(normal, {tangent.x, tangent.y, tangent.z});
+    // Shepperd 1978, "Quaternion from Rotation Matrix": by the largest component.
+    const float four[] = {1 + f.t.x - f.b.y - f.n.z, 1 - f.t.x + f.b.y - f.n.z, 1 - f.t.x - f.b.y + f.n.z,
+                          1 + f.t.x + f.b.y + f.n.z};
+    const size_t largest = size_t(std::ranges::max_element(four) - std::begin(four));
+    const float yz = f.b.z - f.n.y, zx = f.n.x - f.t.z, xy = f.t.y - f.b.x, xy_sum = f.t.y + f.b.x,
+                zx_sum = f.n.x + f.t.z, yz_sum = f.b.z + f.n.y;
+    const Vec4 rows[] = {{four[0], xy_sum, zx_sum, yz},
+                         {xy_sum, four[1], yz_sum, zx},
+                         {zx_sum, yz_sum, four[2], xy},
+                         {yz, zx, xy, four[3]}};
+    const float scale = 0.5f / std::sqrt(four[largest]);
+    const Vec4 q = rows[largest];
+    return {q.x * scale, q.y * scale, q.z * scale, q.w * scale};
+}
+
+void add_frames(const Mesh& mesh, std::vector<std::vector<Vec2>>& numbers) {
+    std::vector<Vec2> xy, zw;
+    for (size_t v = 0; v < mesh.normals.size(); ++v) {
+        const Vec4 q = frame_quaternion(mesh.normals[v], mesh.tangents[v]);
+        xy.push_back({q.x, q.y});
+        zw.push_back({q.z, q.w});
+    }
+    numbers.push_back(std::move(xy));
+    numbers.push_back(std::move(zw));
 }
 
 Result<ImageSource> embedded(const Image& image, const std::string& name) {
@@ -156,6 +188,25 @@ Result<json> head_material_json(const SceneObject& object, size_t number, const 
     return made;
 }
 
+// The mesh gets tangents, which its frames need. Atlas and tangents are those of `mesh`.
+Result<std::optional<Rig>> rig_of_head(const Scene& scene, const SceneObject& object, Mesh& mesh,
+                                       Head& head) {
+    if (object.motion.empty()) return std::optional<Rig>();
+    if (!ScenePoser::can_pose(object)) {
+        head.warnings.push_back("'" + object.name +
+                                "' does not move in the engine: it is subdivided or displaced");
+        return std::optional<Rig>();
+    }
+    if (mesh.tangents.empty())
+        for (const Vec3& n : mesh.normals) {
+            const Vec3 t = vertex_tangent(n);
+            mesh.tangents.push_back({t.x, t.y, t.z, 1});
+        }
+    SceneObject moving = object;
+    moving.mesh = mesh;
+    return rig_of(moving, scene.motion.pose());
+}
+
 Result<json> head_object_json(const HeadInput& input, size_t index, Head& head) {
     const SceneObject& object = input.scene.objects[index];
     Mesh mesh = object.mesh;
@@ -177,8 +228,11 @@ Result<json> head_object_json(const HeadInput& input, size_t index, Head& head) 
         materials.push_back(std::move(made));
     }
     mesh.atlas_uvs = atlas_uvs_of(mesh);
-    DERMIS_TRY_ASSIGN(const auto numbers, vertex_numbers(mesh, input.occlusion_weights));
-    DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, glb_bytes(mesh, {}, {}, numbers));
+    DERMIS_TRY_ASSIGN(auto numbers, vertex_numbers(mesh, input.occlusion_weights));
+    DERMIS_TRY_ASSIGN(const std::optional<Rig> rig, rig_of_head(input.scene, object, mesh, head));
+    if (rig) add_frames(mesh, numbers);
+    for (json& material : materials) material["moves"] = rig.has_value();
+    DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, glb_bytes(mesh, {}, {}, numbers, rig ? &*rig : nullptr));
     const std::string path = fmt::format("object_{}.glb", index);
     head.files.push_back({path, std::move(bytes)});
     return json{{"file", path}, {"name", object.name}, {"materials", materials}};

@@ -10,7 +10,10 @@
 //              coordinates: TEXCOORD_1 the skin's atlas; TEXCOORD_2 the mean curvature and half the
 //              difference between those along the two tangents; TEXCOORD_3 the mixed one, all in 1/mm in the
 //              frame of vertex_tangent() (shaders/include/skin/curvature.glsl), and the occlusion of red;
-//              TEXCOORD_4 that of green and blue, scattered by the profile; TEXCOORD_5 the occlusion as it is
+//              TEXCOORD_4 that of green and blue, scattered by the profile; TEXCOORD_5 the occlusion as it
+//              is. A mesh that moves has its nodes, skins, morph targets and clips, in the scene's pose, and
+//              in TEXCOORD_6 and TEXCOORD_7 the quaternion x y z w of the frame (tangent, normal x tangent,
+//              normal) in which all this was baked: shaders turn it to that of the pose
 // normals_red.png, normals_green.png, normals_spread.png
 //              baked normals (shaders/include/skin/baked_normals.glsl) over the atlas
 // thickness.png over the atlas: kThicknessMaxMm for a value of 1

@@ -32,10 +32,17 @@ struct PosedVertices {
     TargetWeights target_weights = {};
 };
 
+/// A clip's weights of all targets as cubic splines, as glTF has them: at each time the slopes before it of
+/// all targets, their weights, their slopes behind it.
+struct WeightKeys {
+    std::vector<float> times_s, values;
+};
+
 struct ClipInfo {
     std::string name;  ///< "#2" for the second if the file has no name for it
     double length_s = 0;
     size_t channels = 0;
+    WeightKeys weights = {};  ///< of a clip that code makes
 };
 
 struct Motion {

@@ -11,6 +11,8 @@
 
 namespace dermis::inline mesh {
 
+struct Rig;  // dermis/mesh/rig.h
+
 /// A PNG or JPEG to embed for every material map of that name.
 struct NamedImage {
     std::string name;                ///< as in ImageSource::name
@@ -31,11 +33,13 @@ struct NamedImage {
                                      std::span<const std::string> extras = {});
 
 /// The bytes that write_glb() writes. `more_uvs`, each with one entry a position, become TEXCOORD_2 and on in
-/// one interleaved view: numbers of the vertices that every engine reads.
+/// one interleaved view: numbers of the vertices that every engine reads. With a rig, which is of this mesh,
+/// the file has the rig's nodes, shapes and clips.
 [[nodiscard]] Result<std::vector<std::byte>> glb_bytes(const Mesh& mesh,
                                                        std::span<const NamedImage> images = {},
                                                        std::span<const std::string> extras = {},
-                                                       std::span<const std::vector<Vec2>> more_uvs = {});
+                                                       std::span<const std::vector<Vec2>> more_uvs = {},
+                                                       const Rig* rig = nullptr);
 
 /// Positions in millimetres, normals, UVs (origin bottom-left, as OBJ has it), `usemtl` by name; an MTL of
 /// the same name beside it, with map paths as in the materials.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <span>
 
 #include "subjects/bust/parts.h"
@@ -84,13 +85,37 @@ constexpr std::span<const Key> kTracks[] = {kSmile, kJaw, kBrows, kSquintL, kSqu
 static_assert(std::size(kTracks) == std::size(kExpressions));
 
 // Eased from key to key.
-double weight_at(std::span<const Key> keys, double time_s) {
-    if (time_s <= keys.front().time_s) return keys.front().weight;
+struct WeightAndSlope {
+    double weight = 0, slope_per_s = 0;
+};
+WeightAndSlope weight_at(std::span<const Key> keys, double time_s) {
+    if (time_s <= keys.front().time_s) return {keys.front().weight, 0};
     for (size_t i = 1; i < keys.size(); ++i)
-        if (time_s < keys[i].time_s)
-            return mix(keys[i - 1].weight, keys[i].weight,
-                       smooth_step(keys[i - 1].time_s, keys[i].time_s, time_s));
-    return keys.back().weight;
+        if (const Key& from = keys[i - 1], &to = keys[i]; time_s < to.time_s) {
+            const double length_s = to.time_s - from.time_s, part = (time_s - from.time_s) / length_s;
+            return {mix(from.weight, to.weight, smooth_step(from.time_s, to.time_s, time_s)),
+                    (to.weight - from.weight) * 30 * part * part * (1 - part) * (1 - part) / length_s};
+        }
+    return {keys.back().weight, 0};
+}
+
+// Cubic splines between so many places are within 0.0002 of the weights.
+WeightKeys all_keys() {
+    constexpr int kPlacesPerS = 60;
+    std::set<double> times_s;
+    for (int i = 0; i <= kClipS * kPlacesPerS; ++i) times_s.insert(double(i) / kPlacesPerS);
+    for (const std::span<const Key> track : kTracks)
+        for (const Key& key : track) times_s.insert(key.time_s);
+    WeightKeys all;
+    for (const double time_s : times_s) {
+        all.times_s.push_back(float(time_s));
+        for (const bool is_weight : {false, true, false})
+            for (const std::span<const Key> track : kTracks) {
+                const WeightAndSlope at = weight_at(track, time_s);
+                all.values.push_back(float(is_weight ? at.weight : at.slope_per_s));
+            }
+    }
+    return all;
 }
 
 }  // namespace
@@ -105,7 +130,8 @@ Point expression_move(Point p, Point normal, const ExpressionWeights& weights) {
 
 Motion bust_motion() {
     Motion motion;
-    motion.clips.push_back({.name = "greet", .length_s = kClipS, .channels = std::size(kTracks)});
+    motion.clips.push_back(
+        {.name = "greet", .length_s = kClipS, .channels = std::size(kTracks), .weights = all_keys()});
     for (const std::string_view name : kExpressions) motion.targets.emplace_back(name);
     return motion;
 }
@@ -114,7 +140,7 @@ ExpressionWeights expression_weights(const Pose& pose) {
     ExpressionWeights weights = {};
     const double time_s = pose.loop ? std::fmod(pose.time_s, kClipS) : pose.time_s;
     for (size_t i = 0; i < weights.size(); ++i) {
-        if (!pose.clip.empty()) weights[i] = weight_at(kTracks[i], time_s);
+        if (!pose.clip.empty()) weights[i] = weight_at(kTracks[i], time_s).weight;
         for (const std::string& name : {std::string(kExpressions[i]), numbered_name(i)})
             if (const auto given = pose.morph.find(name); given != pose.morph.end())
                 weights[i] = double(given->second);

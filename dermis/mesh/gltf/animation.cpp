@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "dermis/mesh/gltf/accessor.h"
-#include "dermis/mesh/gltf/sampler.h"
 
 namespace dermis::inline mesh::gltf {
 namespace {
@@ -21,25 +20,14 @@ size_t count_targets(const JsonView& mesh) {
     return mesh["primitives"].size() == 0 ? 0 : mesh["primitives"][size_t{0}]["targets"].size();
 }
 
-std::string clip_name(const JsonView& clip, size_t index) {
-    const std::string name = clip["name"].text("");
-    return name.empty() ? numbered_name(index) : name;
-}
-
-struct FoundChannel {
-    uint64_t node = 0;
-    std::string path;
-    Keys keys;
-};
-
 class ChannelReader {
   public:
     ChannelReader(Document& document, const JsonView& clip, const JsonView& channel)
         : document_(document), clip_(clip), channel_(channel), target_(channel["target"]) {}
 
     /// Nothing for a channel without a node, which the specification ignores, and after an error.
-    std::optional<FoundChannel> run() {
-        FoundChannel found;
+    std::optional<Channel> run() {
+        Channel found;
         found.path = target_["path"].text("");
         if (found.path == "pointer")
             return target_.fail(
@@ -62,7 +50,7 @@ class ChannelReader {
   private:
     JsonView sampler() { return clip_["samplers"][size_t(channel_["sampler"].integer(0))]; }
 
-    size_t width_of(const FoundChannel& found) {
+    size_t width_of(const Channel& found) {
         const JsonView node = document_.view()["nodes"][size_t(found.node)];
         if (node.failed()) return 0;
         if (found.path == "weights") {
@@ -100,7 +88,7 @@ class ChannelReader {
         return times;
     }
 
-    void read_keys(FoundChannel& found) {
+    void read_keys(Channel& found) {
         const JsonView source = sampler();
         if (source.failed()) return;
         Keys& keys = found.keys;
@@ -162,6 +150,26 @@ double time_in_clip(Document& document, const JsonView& clip, const Pose& pose) 
 
 }  // namespace
 
+std::string clip_name(const JsonView& clip, size_t index) {
+    const std::string name = clip["name"].text("");
+    return name.empty() ? numbered_name(index) : name;
+}
+
+std::vector<Channel> read_channels(Document& document, const JsonView& clip) {
+    const JsonView channels = clip["channels"];
+    std::vector<Channel> all;
+    std::set<std::pair<uint64_t, std::string>> known;
+    for (size_t i = 0; i < channels.size() && !clip.failed(); ++i) {
+        auto found = ChannelReader(document, clip, channels[i]).run();
+        if (!found) continue;
+        if (!known.emplace(found->node, found->path).second)
+            channels[i].fail(
+                fmt::format("the {} of nodes[{}] is animated twice in one clip", found->path, found->node));
+        all.push_back(std::move(*found));
+    }
+    return all;
+}
+
 NodePoses sample_clip(Document& document, const Pose& pose) {
     const JsonView clips = document.view()["animations"];
     NodePoses nodes;
@@ -171,16 +179,9 @@ NodePoses sample_clip(Document& document, const Pose& pose) {
     if (chosen == clips.size() || clips.failed()) return nodes;
     const JsonView clip = clips[chosen];
     const double time_s = time_in_clip(document, clip, pose);
-    const JsonView channels = clip["channels"];
-    std::set<std::pair<uint64_t, std::string>> known;
-    for (size_t i = 0; i < channels.size() && !clip.failed(); ++i) {
-        const auto found = ChannelReader(document, clip, channels[i]).run();
-        if (!found) continue;
-        if (!known.emplace(found->node, found->path).second)
-            channels[i].fail(
-                fmt::format("the {} of nodes[{}] is animated twice in one clip", found->path, found->node));
-        set_property(nodes[found->node], found->path, sample(found->keys, time_s, found->path == "rotation"));
-    }
+    for (const Channel& channel : read_channels(document, clip))
+        set_property(nodes[channel.node], channel.path,
+                     sample(channel.keys, time_s, channel.path == "rotation"));
     return nodes;
 }
 
@@ -196,6 +197,16 @@ std::vector<std::string> target_names(const JsonView& mesh) {
         names.push_back(named ? given[i].get<std::string>() : numbered_name(i));
     }
     return names;
+}
+
+void choose_weights(const Pose& pose, const JsonView& mesh, std::vector<float>& weights) {
+    if (pose.morph.empty()) return;
+    const std::vector<std::string> names = target_names(mesh);
+    weights.resize(names.size());
+    for (size_t i = 0; i < names.size(); ++i)
+        for (const std::string& key : {numbered_name(i), names[i]})
+            if (const auto chosen = pose.morph.find(key); chosen != pose.morph.end())
+                weights[i] = chosen->second;
 }
 
 Motion read_motion(Document& document) {

@@ -14,17 +14,6 @@ std::vector<float> weights_of(const JsonView& list) {
     return weights;
 }
 
-// The pose's weights by name or number.
-void take_chosen_weights(const JsonView& mesh, const Pose& pose, std::vector<float>& morph) {
-    if (pose.morph.empty()) return;
-    const std::vector<std::string> names = target_names(mesh);
-    morph.resize(names.size());
-    for (size_t i = 0; i < names.size(); ++i)
-        for (const std::string& key : {numbered_name(i), names[i]})
-            if (const auto chosen = pose.morph.find(key); chosen != pose.morph.end())
-                morph[i] = chosen->second;
-}
-
 }  // namespace
 
 Instances::Instances(Document& document, double mm_per_unit) : document_(document) {
@@ -101,7 +90,7 @@ void Instances::add_mesh(uint64_t index, const Placement& placement, const Pose&
     const JsonView primitives = mesh["primitives"];
     const std::string name = mesh["name"].text(placement.node_name);
     std::vector<float> morph = placement.morph.empty() ? weights_of(mesh["weights"]) : placement.morph;
-    take_chosen_weights(mesh, pose, morph);
+    choose_weights(pose, mesh, morph);
     note_weights(mesh, morph);
     for (size_t i = 0; i < primitives.size() && !failed(); ++i) {
         const uint32_t material = material_of(primitives[i]);

@@ -55,15 +55,13 @@ class TreeReader {
             return affine_of_matrix(
                 node["matrix"].numbers<16>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}));
         auto t = node["translation"].numbers<3>({0, 0, 0}), s = node["scale"].numbers<3>({1, 1, 1});
-        auto q = node["rotation"].numbers<4>({0, 0, 0, 1});  // a zero quaternion gives no rotation
+        auto q = node["rotation"].numbers<4>({0, 0, 0, 1});
         if (const auto pose = poses_.find(index); pose != poses_.end()) {
             t = pose->second.translation.value_or(t);
             q = pose->second.rotation.value_or(q);
             s = pose->second.scale.value_or(s);
         }
-        const Eigen::Matrix3d rotation =
-            Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized().toRotationMatrix();
-        return {rotation * Eigen::Vector3d(s.data()).asDiagonal(), Eigen::Vector3d(t.data())};
+        return affine_of(t, q, s);
     }
 
     void visit(uint64_t root, bool drawn) {
@@ -106,6 +104,14 @@ Affine Affine::for_normals() const {
     if (largest == 0) return {};  // flattened to a line or a point: any normal will do
     normals.linear *= std::copysign(1 / largest, linear.determinant());
     return normals;
+}
+
+Affine affine_of(const std::array<double, 3>& translation, const std::array<double, 4>& rotation,
+                 const std::array<double, 3>& scale) {
+    const Eigen::Matrix3d turn = Eigen::Quaterniond(rotation[3], rotation[0], rotation[1], rotation[2])
+                                     .normalized()
+                                     .toRotationMatrix();
+    return {turn * Eigen::Vector3d(scale.data()).asDiagonal(), Eigen::Vector3d(translation.data())};
 }
 
 Affine affine_of_matrix(const std::array<double, 16>& m) {

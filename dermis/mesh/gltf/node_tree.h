@@ -34,6 +34,9 @@ struct Affine {
 }
 /// glTF's 16 column-major numbers; the last row is taken to be 0 0 0 1.
 [[nodiscard]] Affine affine_of_matrix(const std::array<double, 16>& m);
+/// Scaled, turned by a quaternion x y z w of any length (0: not), moved.
+[[nodiscard]] Affine affine_of(const std::array<double, 3>& translation,
+                               const std::array<double, 4>& rotation, const std::array<double, 3>& scale);
 
 struct NodeTree {
     std::vector<Affine> world;  ///< of every node, also of those outside of the default scene (joints may be)

@@ -14,29 +14,6 @@ namespace {
 // inverse bind matrices; the transform of the mesh's own node does not count.
 constexpr size_t kMaxInfluenceSets = 16;
 
-std::vector<Affine> inverse_bind_matrices(Document& document, const JsonView& skin, size_t joints) {
-    std::vector<Affine> matrices(joints);
-    if (!skin["inverseBindMatrices"].exists()) return matrices;
-    const uint64_t accessor = skin["inverseBindMatrices"].integer(0);
-    if (skin.failed()) return {};
-    const std::vector<float> numbers = read_floats(document, accessor, 16);
-    if (skin.failed()) return {};
-    if (numbers.size() / 16 < joints)
-        return skin["inverseBindMatrices"].fail(
-                   fmt::format("has {} matrices for {} joints", numbers.size() / 16, joints)),
-               std::vector<Affine>{};
-    for (size_t joint = 0; joint < joints; ++joint) {
-        std::array<double, 16> m{};
-        for (size_t i = 0; i < 16; ++i) {
-            m[i] = numbers[16 * joint + i];
-            if (!std::isfinite(m[i]))
-                return skin["inverseBindMatrices"].fail("must be finite"), std::vector<Affine>{};
-        }
-        matrices[joint] = affine_of_matrix(m);
-    }
-    return matrices;
-}
-
 // Messages are of `view`.
 void normalize_weights(Influences& influences, const JsonView& view) {
     constexpr double kOf8Bits = 0.01;  // four weights, each rounded
@@ -59,6 +36,29 @@ void normalize_weights(Influences& influences, const JsonView& view) {
 }
 
 }  // namespace
+
+std::vector<Affine> inverse_bind_matrices(Document& document, const JsonView& skin, size_t joints) {
+    std::vector<Affine> matrices(joints);
+    if (!skin["inverseBindMatrices"].exists()) return matrices;
+    const uint64_t accessor = skin["inverseBindMatrices"].integer(0);
+    if (skin.failed()) return {};
+    const std::vector<float> numbers = read_floats(document, accessor, 16);
+    if (skin.failed()) return {};
+    if (numbers.size() / 16 < joints)
+        return skin["inverseBindMatrices"].fail(
+                   fmt::format("has {} matrices for {} joints", numbers.size() / 16, joints)),
+               std::vector<Affine>{};
+    for (size_t joint = 0; joint < joints; ++joint) {
+        std::array<double, 16> m{};
+        for (size_t i = 0; i < 16; ++i) {
+            m[i] = numbers[16 * joint + i];
+            if (!std::isfinite(m[i]))
+                return skin["inverseBindMatrices"].fail("must be finite"), std::vector<Affine>{};
+        }
+        matrices[joint] = affine_of_matrix(m);
+    }
+    return matrices;
+}
 
 std::vector<Affine> joint_matrices(Document& document, uint64_t index, std::span<const Affine> world) {
     const JsonView skin = document.view()["skins"][size_t(index)];

@@ -17,6 +17,10 @@ namespace dermis::inline mesh::gltf {
 [[nodiscard]] std::vector<Affine> joint_matrices(Document& document, uint64_t skin,
                                                  std::span<const Affine> world);
 
+/// Of every joint; unit matrices where the skin has none. Empty after an error.
+[[nodiscard]] std::vector<Affine> inverse_bind_matrices(Document& document, const JsonView& skin,
+                                                        size_t joints);
+
 /// Joints and weights of a primitive's vertices, `per_vertex` each; weights sum to 1 (or are all 0).
 struct Influences {
     size_t per_vertex = 0;  ///< 0: the primitive is not skinned

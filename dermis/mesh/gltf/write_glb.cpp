@@ -11,31 +11,18 @@
 #include <string>
 
 #include "dermis/base/file.h"
+#include "dermis/mesh/gltf/glb_content.h"
 #include "dermis/mesh/write_mesh.h"
 
 namespace dermis::inline mesh {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = gltf::OrderedJson;
+using gltf::GlbContent;
 
 Json array_of(Vec3 v) {
     return {v.x, v.y, v.z};
 }
-
-struct GlbContent {
-    Json root;
-    std::vector<std::byte> binary;  // the one buffer
-
-    // Appends bytes, padded to four; the number of their buffer view.
-    size_t add_view(std::span<const std::byte> bytes, std::optional<int> target) {
-        Json view = {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}};
-        if (target) view["target"] = *target;
-        binary.insert(binary.end(), bytes.begin(), bytes.end());
-        binary.resize((binary.size() + 3) / 4 * 4);
-        root["bufferViews"].push_back(view);
-        return root["bufferViews"].size() - 1;
-    }
-};
 
 // By the first bytes; empty for anything else.
 std::string mime_type(std::span<const std::byte> bytes) {
@@ -162,81 +149,6 @@ class MaterialWriter {
     std::optional<Error> error_;
 };
 
-enum : int { kU32 = 5125, kF32 = 5126, kArrayBuffer = 34962, kElementArrayBuffer = 34963 };
-
-size_t add_accessor(GlbContent& glb, std::span<const std::byte> bytes, size_t count, int component,
-                    const char* type, int target) {
-    // Not within the next expression: an ordered object moves its members when one is added.
-    const size_t view = glb.add_view(bytes, target);
-    glb.root["accessors"].push_back(
-        {{"bufferView", view}, {"componentType", component}, {"count", count}, {"type", type}});
-    return glb.root["accessors"].size() - 1;
-}
-
-template <class T>
-size_t add_attribute(GlbContent& glb, const std::vector<T>& values, const char* type) {
-    return add_accessor(glb, std::as_bytes(std::span(values)), values.size(), kF32, type, kArrayBuffer);
-}
-
-size_t add_positions(GlbContent& glb, const Mesh& mesh) {
-    std::vector<Vec3> positions_m;
-    Vec3 low = {INFINITY, INFINITY, INFINITY}, high = -low;
-    for (const Vec3& p_mm : mesh.positions_mm) {
-        const Vec3 p = p_mm * 0.001f;
-        positions_m.push_back(p);
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    const size_t accessor = add_attribute(glb, positions_m, "VEC3");
-    glb.root["accessors"].back()["min"] = array_of(low);
-    glb.root["accessors"].back()["max"] = array_of(high);
-    return accessor;
-}
-
-// The numbers of a vertex one behind the other in one view: WebGPU guarantees only 8 vertex buffers, and an
-// engine makes one of each view.
-void add_more_uvs(GlbContent& glb, std::span<const std::vector<Vec2>> more_uvs, Json& attributes) {
-    if (more_uvs.empty()) return;
-    const size_t count = more_uvs.front().size();
-    std::vector<Vec2> values;
-    values.reserve(count * more_uvs.size());
-    for (size_t v = 0; v < count; ++v)
-        for (const std::vector<Vec2>& uvs : more_uvs) values.push_back(uvs[v]);
-    const size_t view = glb.add_view(std::as_bytes(std::span(values)), kArrayBuffer);
-    glb.root["bufferViews"][view]["byteStride"] = more_uvs.size() * sizeof(Vec2);
-    for (size_t i = 0; i < more_uvs.size(); ++i) {
-        attributes[fmt::format("TEXCOORD_{}", 2 + i)] = glb.root["accessors"].size();
-        glb.root["accessors"].push_back({{"bufferView", view},
-                                         {"byteOffset", i * sizeof(Vec2)},
-                                         {"componentType", kF32},
-                                         {"count", count},
-                                         {"type", "VEC2"}});
-    }
-}
-
-void add_geometry(GlbContent& glb, const Mesh& mesh, std::span<const std::vector<Vec2>> more_uvs) {
-    Json attributes;
-    attributes["POSITION"] = add_positions(glb, mesh);
-    if (!mesh.normals.empty()) attributes["NORMAL"] = add_attribute(glb, mesh.normals, "VEC3");
-    if (!mesh.tangents.empty()) attributes["TANGENT"] = add_attribute(glb, mesh.tangents, "VEC4");
-    if (!mesh.uvs.empty()) attributes["TEXCOORD_0"] = add_attribute(glb, mesh.uvs, "VEC2");
-    if (!mesh.atlas_uvs.empty()) attributes["TEXCOORD_1"] = add_attribute(glb, mesh.atlas_uvs, "VEC2");
-    add_more_uvs(glb, more_uvs, attributes);
-    Json primitives = Json::array();
-    for (const Submesh& submesh : mesh.submeshes) {
-        if (submesh.index_count == 0) continue;
-        const auto bytes =
-            std::as_bytes(std::span(mesh.indices).subspan(submesh.first_index, submesh.index_count));
-        const size_t indices =
-            add_accessor(glb, bytes, submesh.index_count, kU32, "SCALAR", kElementArrayBuffer);
-        primitives.push_back(
-            {{"attributes", attributes}, {"indices", indices}, {"material", submesh.material}});
-    }
-    glb.root["meshes"] = Json::array({{{"primitives", primitives}}});
-    if (!mesh.submeshes.empty() && !mesh.submeshes.front().name.empty())
-        glb.root["meshes"][0]["name"] = mesh.submeshes.front().name;
-}
-
 Result<std::vector<std::byte>> assemble(const GlbContent& glb) {
     std::string json;
     try {
@@ -264,9 +176,122 @@ Result<std::vector<std::byte>> assemble(const GlbContent& glb) {
 
 }  // namespace
 
+namespace gltf {
+
+size_t GlbContent::add_view(std::span<const std::byte> bytes, std::optional<int> target) {
+    Json view = {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}};
+    if (target) view["target"] = *target;
+    binary.insert(binary.end(), bytes.begin(), bytes.end());
+    binary.resize((binary.size() + 3) / 4 * 4);
+    root["bufferViews"].push_back(view);
+    return root["bufferViews"].size() - 1;
+}
+
+size_t GlbContent::add_accessor(std::span<const std::byte> bytes, size_t count, int component,
+                                const char* type, std::optional<int> target) {
+    const size_t view = add_view(bytes, target);
+    root["accessors"].push_back(
+        {{"bufferView", view}, {"componentType", component}, {"count", count}, {"type", type}});
+    return root["accessors"].size() - 1;
+}
+
+void GlbContent::set_bounds(std::span<const Vec3> values) {
+    Vec3 low = {INFINITY, INFINITY, INFINITY}, high = -low;
+    for (const Vec3& p : values) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    root["accessors"].back()["min"] = array_of(low);
+    root["accessors"].back()["max"] = array_of(high);
+}
+
+size_t GlbContent::add_changes(const std::vector<Vec3>& changes, bool bounded) {
+    std::vector<uint32_t> places;
+    std::vector<Vec3> values;
+    for (size_t v = 0; v < changes.size(); ++v)
+        if (changes[v] != Vec3{}) {
+            places.push_back(uint32_t(v));
+            values.push_back(changes[v]);
+        }
+    const bool sparse = 4 * values.size() < 3 * changes.size();  // an entry has its place beside its vector
+    if (!sparse) {
+        add_attribute(changes, "VEC3");
+    } else {
+        Json accessor = {{"componentType", kF32}, {"count", changes.size()}, {"type", "VEC3"}};
+        if (!values.empty()) {
+            const size_t indices = add_view(std::as_bytes(std::span(places)), std::nullopt),
+                         moved = add_view(std::as_bytes(std::span(values)), std::nullopt);
+            accessor["sparse"] = {{"count", values.size()},
+                                  {"indices", {{"bufferView", indices}, {"componentType", kU32}}},
+                                  {"values", {{"bufferView", moved}}}};
+        }
+        root["accessors"].push_back(accessor);
+    }
+    if (bounded) set_bounds(changes);
+    return root["accessors"].size() - 1;
+}
+
+namespace {
+
+// The numbers of a vertex one behind the other in one view: WebGPU guarantees only 8 vertex buffers, and an
+// engine makes one of each view.
+void add_more_uvs(GlbContent& glb, std::span<const std::vector<Vec2>> more_uvs, Json& attributes) {
+    if (more_uvs.empty()) return;
+    const size_t count = more_uvs.front().size();
+    std::vector<Vec2> values;
+    values.reserve(count * more_uvs.size());
+    for (size_t v = 0; v < count; ++v)
+        for (const std::vector<Vec2>& uvs : more_uvs) values.push_back(uvs[v]);
+    const size_t view = glb.add_view(std::as_bytes(std::span(values)), kArrayBuffer);
+    glb.root["bufferViews"][view]["byteStride"] = more_uvs.size() * sizeof(Vec2);
+    for (size_t i = 0; i < more_uvs.size(); ++i) {
+        attributes[fmt::format("TEXCOORD_{}", 2 + i)] = glb.root["accessors"].size();
+        glb.root["accessors"].push_back({{"bufferView", view},
+                                         {"byteOffset", i * sizeof(Vec2)},
+                                         {"componentType", kF32},
+                                         {"count", count},
+                                         {"type", "VEC2"}});
+    }
+}
+
+}  // namespace
+
+Json add_attributes(GlbContent& glb, const Mesh& mesh, std::span<const std::vector<Vec2>> more_uvs) {
+    Json attributes;
+    std::vector<Vec3> positions_m;
+    for (const Vec3& p_mm : mesh.positions_mm) positions_m.push_back(p_mm * 0.001f);
+    attributes["POSITION"] = glb.add_attribute(positions_m, "VEC3");
+    glb.set_bounds(positions_m);
+    if (!mesh.normals.empty()) attributes["NORMAL"] = glb.add_attribute(mesh.normals, "VEC3");
+    if (!mesh.tangents.empty()) attributes["TANGENT"] = glb.add_attribute(mesh.tangents, "VEC4");
+    if (!mesh.uvs.empty()) attributes["TEXCOORD_0"] = glb.add_attribute(mesh.uvs, "VEC2");
+    if (!mesh.atlas_uvs.empty()) attributes["TEXCOORD_1"] = glb.add_attribute(mesh.atlas_uvs, "VEC2");
+    add_more_uvs(glb, more_uvs, attributes);
+    return attributes;
+}
+
+void add_mesh(GlbContent& glb, const Mesh& mesh, const Json& attributes, const Json& targets) {
+    Json primitives = Json::array();
+    for (const Submesh& submesh : mesh.submeshes) {
+        if (submesh.index_count == 0) continue;
+        const auto bytes =
+            std::as_bytes(std::span(mesh.indices).subspan(submesh.first_index, submesh.index_count));
+        const size_t indices =
+            glb.add_accessor(bytes, submesh.index_count, kU32, "SCALAR", kElementArrayBuffer);
+        primitives.push_back(
+            {{"attributes", attributes}, {"indices", indices}, {"material", submesh.material}});
+        if (!targets.empty()) primitives.back()["targets"] = targets;
+    }
+    glb.root["meshes"].push_back({{"primitives", primitives}});
+    if (!mesh.submeshes.empty() && !mesh.submeshes.front().name.empty())
+        glb.root["meshes"].back()["name"] = mesh.submeshes.front().name;
+}
+
+}  // namespace gltf
+
 Result<std::vector<std::byte>> glb_bytes(const Mesh& mesh, std::span<const NamedImage> images,
                                          std::span<const std::string> extras,
-                                         std::span<const std::vector<Vec2>> more_uvs) {
+                                         std::span<const std::vector<Vec2>> more_uvs, const Rig* rig) {
     if (mesh.indices.empty()) return Error{"a mesh without triangles is not written"};
     GlbContent glb;
     glb.root = {{"asset", {{"version", "2.0"}, {"generator", "dermis"}}},
@@ -280,7 +305,10 @@ Result<std::vector<std::byte>> glb_bytes(const Mesh& mesh, std::span<const Named
         if (glb.root["materials"][i]["extras"].is_discarded())
             return Error{fmt::format("the extras of material {} are no JSON", i)};
     }
-    add_geometry(glb, mesh, more_uvs);
+    if (rig)
+        gltf::add_rig(glb, *rig, more_uvs);
+    else
+        gltf::add_mesh(glb, mesh, gltf::add_attributes(glb, mesh, more_uvs));
     glb.root["buffers"] = Json::array({{{"byteLength", glb.binary.size()}}});
     return assemble(glb);
 }
