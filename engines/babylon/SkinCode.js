@@ -138,7 +138,7 @@ finalColor = vec4(vec3(mix(0.02, 1.0, skin_sign_of_${sign}(skinPixel))), 1.0);
 #endif`).join("\n")}`;
 
 const codeIn = (l, text) => ({
-  vertex: { CUSTOM_VERTEX_DEFINITIONS: vertexDefinitions(l), CUSTOM_VERTEX_MAIN_END: vertexEnd(l) },
+  vertex: { CUSTOM_VERTEX_DEFINITIONS: vertexDefinitions(l, text), CUSTOM_VERTEX_MAIN_END: vertexEnd(l) },
   fragment: {
     CUSTOM_FRAGMENT_DEFINITIONS: definitions(l, text),
     CUSTOM_FRAGMENT_BEFORE_LIGHTS: beforeLights(l),

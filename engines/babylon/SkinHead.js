@@ -17,29 +17,67 @@ import { VertexData } from "@babylonjs/core/Meshes/mesh.vertexData.js";
 import { metres, readGlb, readSettings, shadowFrustum } from "./SkinHeadFiles.js";
 import { loadTexture, materialOf } from "./SkinHeadMaterial.js";
 import { loadSkinTable } from "./SkinMaterialPlugin.js";
-import { headAttributes } from "./SkinSurfaceCode.js";
+import { frameAttribute, headAttributes } from "./SkinSurfaceCode.js";
 
 const kEnvironmentSide = 128;
 const vector = numbers => Vector3.FromArray(numbers);
 
-// Pairs of a head as the attributes of SkinSurfaceCode.js: the atlas; two pairs; a pair and the first of another.
-function addHeadAttributes(mesh, { TEXCOORD_1: atlas, TEXCOORD_2: bends, TEXCOORD_3: bend, TEXCOORD_4: occlusion, TEXCOORD_5: plain }) {
-  if (!plain) return;
-  const count = atlas.length / 2, ofBends = new Float32Array(4 * count), ofOcclusion = new Float32Array(3 * count);
-  for (let v = 0; v < count; ++v) {
-    ofBends.set([bends[2 * v], bends[2 * v + 1], bend[2 * v], bend[2 * v + 1]], 4 * v);
-    ofOcclusion.set([occlusion[2 * v], occlusion[2 * v + 1], plain[2 * v]], 3 * v);
-  }
-  Object.entries(headAttributes).forEach(([name, size], i) => mesh.setVerticesData(name, [atlas, ofBends, ofOcclusion][i], false, size));
+// Pairs as one attribute of four.
+function fours(xy, zw) {
+  const all = new Float32Array(2 * xy.length);
+  for (let v = 0; v < xy.length / 2; ++v) all.set([xy[2 * v], xy[2 * v + 1], zw[2 * v], zw[2 * v + 1]], 4 * v);
+  return all;
 }
 
-function meshOf(scene, name, { attributes, indices }) {
+// Pairs of a head as the attributes of SkinSurfaceCode.js: the atlas; two pairs; a pair and the first of another.
+function addHeadAttributes(mesh, { TEXCOORD_1: atlas, TEXCOORD_2: bends, TEXCOORD_3: bend, TEXCOORD_4: occlusion, TEXCOORD_5: plain,
+  TEXCOORD_6: frame, TEXCOORD_7: restOfFrame }) {
+  if (!plain) return;
+  const count = atlas.length / 2, ofOcclusion = new Float32Array(3 * count);
+  for (let v = 0; v < count; ++v) ofOcclusion.set([occlusion[2 * v], occlusion[2 * v + 1], plain[2 * v]], 3 * v);
+  Object.entries(headAttributes).forEach(([name, size], i) => mesh.setVerticesData(name, [atlas, fours(bends, bend), ofOcclusion][i], false, size));
+  if (frame) mesh.setVerticesData(frameAttribute, fours(frame, restOfFrame), false, 4);
+}
+
+// Its vertices are those of the world: of a part that moves in the pose.
+function meshOf(scene, name, { attributes, indices }, part) {
   const { POSITION: positions, NORMAL: normals, TANGENT: tangents, TEXCOORD_0: uvs } = attributes;
   const vertices = new VertexData(), mesh = new Mesh(name, scene);
-  Object.assign(vertices, { positions, normals, tangents, uvs, indices });
-  vertices.applyToMesh(mesh);
+  Object.assign(vertices, { positions, normals, tangents, uvs, indices }, part?.posed);
+  if (part?.mirrored) for (let i = 0; i < indices.length; i += 3) indices.subarray(i + 1, i + 3).reverse();
+  vertices.applyToMesh(mesh, Boolean(part));
+  mesh.alwaysSelectAsActiveMesh = Boolean(part);  // its bounds move
   addHeadAttributes(mesh, attributes);
   return mesh;
+}
+
+// The clips of all objects by name.
+class SkinMotion {
+  constructor() {
+    this.moving = [];  // { motion, drawn: [{ mesh, part }] }
+    this.clips = [];
+  }
+
+  add(motion, drawn) {
+    this.moving.push({ motion, drawn });
+    for (const { name, length_s } of motion.clips) {
+      const known = this.clips.find(clip => clip.name === name);
+      if (known) known.length_s = Math.max(known.length_s, length_s);
+      else this.clips.push({ name, length_s });
+    }
+  }
+
+  // The head at a time of a clip, whose end is held; without a name as its file opens.
+  pose(name, time_s) {
+    for (const { motion, drawn } of this.moving) {
+      motion.pose(name, time_s);
+      for (const { mesh, part: { posed } } of drawn) {
+        mesh.updateVerticesData("position", posed.positions);
+        mesh.updateVerticesData("normal", posed.normals);
+        mesh.updateVerticesData("tangent", posed.tangents);
+      }
+    }
+  }
 }
 
 function lightOf(scene, settings, frustum, centre) {
@@ -95,30 +133,34 @@ async function sharedMaps(scene, { baked_normals, thickness }, folder) {
   return shared;
 }
 
-// Adds all of it to a scene, which becomes right-handed. A promise of { meshes, skins, lights, shadows, background, settings }; skins
-// are of SkinMaterialPlugin. Rejected with a sentence where a file is missing.
+// Adds all of it to a scene, which becomes right-handed. A promise of { meshes, skins, motion, lights, shadows, background, settings };
+// skins are of SkinMaterialPlugin; motion.clips are [{ name, length_s }], motion.pose(name, seconds) moves the head. Rejected with a
+// sentence where a file is missing.
 export async function loadSkinHead(scene, folder = new URL("./head/", import.meta.url).href) {
   const settings = await readSettings(folder, "babylon"), frustum = shadowFrustum(settings), centre = vector(metres(settings.bounds.center_mm));
   scene.useRightHandedSystem = true;
   const shared = { ...await sharedMaps(scene, settings, folder), penumbraMm: settings.penumbra_mm };
-  const meshes = [], casters = [], skins = [];
+  const meshes = [], casters = [], skins = [], motion = new SkinMotion();
   for (const object of settings.objects) {
     const glb = await readGlb(folder + object.file);
     const made = await Promise.all(glb.materials.map((source, i) =>
       materialOf(scene, { source, glb, folder, settings: object.materials[i], shared })));
     skins.push(...made.map(({ skin }) => skin).filter(skin => skin));
+    const drawn = [];
     for (const primitive of glb.primitives) {
-      const mesh = meshOf(scene, object.name, primitive), { material, settings: one } = made[primitive.material];
+      const part = glb.motion?.parts.find(one => one.mesh === primitive.mesh), mesh = meshOf(scene, object.name, primitive, part), { material, settings: one } = made[primitive.material];
       mesh.material = material;
       meshes.push(mesh);
       mesh.receiveShadows = one.class !== "translucent";
       if (mesh.receiveShadows) casters.push(mesh);
+      drawn.push({ mesh, part });
     }
+    if (glb.motion) motion.add(glb.motion, drawn);
   }
   const lights = settings.lights.map(one => lightOf(scene, one, frustum, centre));
   const shadows = lights.filter((_, i) => settings.lights[i].casts_shadow).map(light => castShadow(light, frustum, casters));
   if (settings.environment) await addEnvironment(scene, settings.environment, folder);
-  return { meshes, skins, lights, shadows, background: Color3.FromArray(settings.background_linear), settings };
+  return { meshes, skins, motion, lights, shadows, background: Color3.FromArray(settings.background_linear), settings };
 }
 
 // Eye, target and field of view of the scene's camera on one of Babylon's.

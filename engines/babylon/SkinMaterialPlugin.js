@@ -10,7 +10,7 @@ import { MaterialPluginBase } from "@babylonjs/core/Materials/materialPluginBase
 import { ShaderLanguage } from "@babylonjs/core/Materials/shaderLanguage.js";
 import { glslCode, wgslCode } from "./SkinCode.js";
 import { faultOfEngine } from "./SkinEngineText.js";
-import { headAttributes, shadowUniforms } from "./SkinSurfaceCode.js";
+import { frameAttribute, headAttributes, shadowUniforms } from "./SkinSurfaceCode.js";
 import { faultOfTable } from "./SkinTable.js";
 
 export * from "./SkinTable.js";
@@ -46,7 +46,8 @@ const kSamplers = {
 export class SkinMaterialPlugin extends MaterialPluginBase {
   constructor(material) {
     super(material, "DermisSkin", 200, {
-      SKIN_TABLE: false, SKIN_VERTEX_CURVATURE: false, SKIN_NO_TABLE: false, SKIN_NO_CURVATURE: false, SKIN_HEAD: false, SKIN_BAKED: false,
+      SKIN_TABLE: false, SKIN_VERTEX_CURVATURE: false, SKIN_NO_TABLE: false, SKIN_NO_CURVATURE: false, SKIN_HEAD: false, SKIN_MOVES: false,
+      SKIN_BAKED: false,
       SKIN_ENVIRONMENT: false, SKIN_REFLECTION: false, SKIN_CHANGED_ENGINE: false, SKIN_THICKNESS: false, SKIN_SPECULAR: false,
       SKIN_DISK: false, SKIN_SCATTERING: true, SKIN_GAIN: true, SKIN_ONE_LOBE: false,
     });
@@ -90,6 +91,7 @@ export class SkinMaterialPlugin extends MaterialPluginBase {
     defines.SKIN_THICKNESS = Boolean(this.thicknessTexture);
     defines.SKIN_SPECULAR = Boolean(this.specularTexture);
     defines.SKIN_HEAD = isHead;
+    defines.SKIN_MOVES = isHead && mesh.isVerticesDataPresent(frameAttribute);
     defines.SKIN_BAKED = Boolean(isHead && this.bakedNormals);
     defines.SKIN_DISK = this.penumbraMm > 0;
     defines.SKIN_SCATTERING = this.scattering;
@@ -118,8 +120,10 @@ export class SkinMaterialPlugin extends MaterialPluginBase {
   get _textures() { return Object.values(kSamplers).map(textureOf => textureOf(this)).filter(texture => texture); }
 
   getAttributes(attributes, scene, mesh) {
-    if (this._isHead(mesh)) attributes.push(...Object.keys(headAttributes));
-    else if (this.curvatureFromVertices) attributes.push(curvatureAttribute);
+    if (this._isHead(mesh)) {
+      attributes.push(...Object.keys(headAttributes));
+      if (mesh.isVerticesDataPresent(frameAttribute)) attributes.push(frameAttribute, ...attributes.includes("tangent") ? [] : ["tangent"]);
+    } else if (this.curvatureFromVertices) attributes.push(curvatureAttribute);
   }
   getSamplers(samplers) { samplers.push(...Object.keys(kSamplers)); }
   getActiveTextures(textures) { textures.push(...this._textures); }

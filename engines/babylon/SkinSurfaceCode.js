@@ -1,5 +1,6 @@
 // What the shader knows of the skin at a place, and the functions that follow from it: light of one direction in place of N.L, its
-// shadow, light from all around. `l` is a language of SkinLanguage.js. Directions are in the mesh's space, tensors in 1/mm.
+// shadow, light from all around. `l` is a language of SkinLanguage.js. Directions are in the mesh's space, of a head that moves
+// in that of its bakes; tensors in 1/mm.
 //
 // Light from all around: Babylon has computed an irradiance E(n) for Lambert, three bands of spherical harmonics (Ramamoorthi,
 // Hanrahan 2001). The even ones are in (E(n) + E(-n)) / 2, the odd one is (E(n) - E(-n)) / 2; skin multiplies those of order 1
@@ -11,11 +12,24 @@ import { diskPlaces, firstPlaces, shadowPlaces } from "./SkinShadowPlaces.js";
 // occlusion of red; that of green and blue, and the occlusion as it is.
 export const headAttributes = { skin_atlas: 2, skin_bends: 4, skin_occlusion: 3 };
 
+// Of a head that moves: the frame in which it was baked (turned.glsl).
+export const frameAttribute = "skin_frame";
+// Axes of the world in the space of the bakes, of each vertex; the third one follows.
+const axes = ["x", "y"].map(axis => `v_skin_axis_${axis}`);
+
 const kinds = ["vec2", "vec4", "vec3"];
 const varyings = Object.keys(headAttributes).map((name, i) => [kinds[i], name, `v_${name}`]);
 const [atlas, bends, occlusion] = varyings.map(([, , varying]) => varying);
 
-export const vertexDefinitions = l => `
+export const vertexDefinitions = (l, text) => `
+#ifdef SKIN_MOVES
+${text}
+${l.attribute("vec4", frameAttribute)}
+#ifndef TANGENT
+${l.attribute("vec4", "tangent")}
+#endif
+${axes.map(axis => l.varying("vec3", axis)).join("\n")}
+#endif
 #ifdef SKIN_VERTEX_CURVATURE
 ${l.attribute("float", "curvature_per_mm")}
 ${l.varying("float", "vSkinCurvature")}
@@ -30,6 +44,15 @@ ${l.output("vSkinCurvature")} = ${l.given("curvature_per_mm")};
 #endif
 #ifdef SKIN_HEAD
 ${varyings.map(([, name, varying]) => `${l.output(varying)} = ${l.given(name)};`).join("\n")}
+#endif
+#ifdef SKIN_MOVES
+{
+  ${l.local("vec3", "n")} = normalize((finalWorld * vec4(normalUpdated, 0.0)).xyz);
+  ${l.local("vec3", "along")} = (finalWorld * vec4(${l.given("tangent")}.xyz, 0.0)).xyz;
+  ${l.local("vec3", "t")} = normalize(along - n * dot(n, along));
+  ${l.local("vec3", "b")} = cross(n, t);
+  ${axes.map((axis, i) => `${l.output(axis)} = skin_turned(${l.given(frameAttribute)}, vec3(t[${i}], b[${i}], n[${i}]));`).join("\n  ")}
+}
 #endif`;
 
 export const surfaceDefinitions = l => `
@@ -38,6 +61,9 @@ ${l.varying("float", "vSkinCurvature")}
 #endif
 #ifdef SKIN_HEAD
 ${varyings.map(([type, , varying]) => l.varying(type, varying)).join("\n")}
+#endif
+#ifdef SKIN_MOVES
+${axes.map(axis => l.varying("vec3", axis)).join("\n")}
 #endif
 #ifdef SKIN_TABLE
 ${l.map("skinTable")}
@@ -60,8 +86,19 @@ ${l.global("vec3", "skinMeshNormal")}
 ${l.global("vec3", "skinDiagonal")}
 ${l.global("vec3", "skinMixed")}
 
+#ifdef SKIN_MOVES
+${l.method("vec3", "skinToMesh", ["vec3", "direction"])} {
+  return normalize(${l.input(axes[0])} * direction.x + ${l.input(axes[1])} * direction.y +
+      cross(${l.input(axes[0])}, ${l.input(axes[1])}) * direction.z);
+}
+${l.method("vec3", "skinToWorld", ["vec3", "direction"])} {
+  return normalize(vec3(dot(${l.input(axes[0])}, direction), dot(${l.input(axes[1])}, direction),
+      dot(cross(${l.input(axes[0])}, ${l.input(axes[1])}), direction)));
+}
+#else
 ${l.method("vec3", "skinToMesh", ["vec3", "direction"])} { return normalize(direction * ${l.rotation}); }
 ${l.method("vec3", "skinToWorld", ["vec3", "direction"])} { return normalize(${l.rotation} * direction); }
+#endif
 ${l.method("float", "skinLimited", ["float", "curvature"])} {
   return min(curvature * ${l.own("skinSettings")}.y, @max_curvature_per_mm@);
 }

@@ -1,9 +1,11 @@
 // The files of a head of `dermis export --engine ... SCENE` for any engine in a browser: settings, meshes as arrays, pictures as
 // blobs. Lengths are metres where a name has no unit.
 
+import { SkinHeadMotion } from "./SkinHeadMotion.js";
+
 const kMmPerUnit = 1000, kShadowMapSide = 2048;
-const kFloat = 5126, kUnsignedInt = 5125;  // glTF 2.0, accessor.componentType
-const kNumbers = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4 };
+const kArrays = { 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array };  // glTF 2.0, accessor.componentType
+const kNumbers = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT4: 16 };
 
 export const metres = lengthsMm => lengthsMm.map(length => length / kMmPerUnit);
 
@@ -28,19 +30,30 @@ export function shadowFrustum({ bounds }) {
   return { side: kShadowMapSide, radius, distance: 2 * radius, near: 0.5 * radius, far: 3.5 * radius, texel: 2 * radius / kShadowMapSide };
 }
 
-// An attribute or the indices as an array of its own; attributes may share a view.
+// An accessor as an array of its own: attributes may share a view, morph targets are often sparse. `bytes` of the file, whose buffer begins
+// at `start`.
 function numbersOf(json, start, bytes, accessor) {
-  const { bufferView, byteOffset = 0, componentType, count, type } = json.accessors[accessor];
-  const view = json.bufferViews[bufferView], each = kNumbers[type];
-  if (![kFloat, kUnsignedInt].includes(componentType)) throw new Error(`component type ${componentType} is not read`);
-  const all = new (componentType === kFloat ? Float32Array : Uint32Array)(bytes, start + (view.byteOffset ?? 0), view.byteLength / 4);
-  const stride = (view.byteStride ?? 4 * each) / 4, first = byteOffset / 4, numbers = new all.constructor(count * each);
-  for (let i = 0; i < count; ++i) numbers.set(all.subarray(first + i * stride, first + i * stride + each), i * each);
+  const { bufferView, byteOffset = 0, componentType, count, type, sparse } = json.accessors[accessor], each = kNumbers[type];
+  const Kind = kArrays[componentType];
+  if (!Kind || !each) throw new Error(`component type ${componentType} is not read`);
+  const arrayOf = (view, Type, length) => new Type(bytes, start + (json.bufferViews[view].byteOffset ?? 0), length);
+  const numbers = new Kind(count * each), size = Kind.BYTES_PER_ELEMENT;
+  if (bufferView !== undefined) {
+    const { byteLength, byteStride = size * each } = json.bufferViews[bufferView], all = arrayOf(bufferView, Kind, byteLength / size);
+    const stride = byteStride / size, first = byteOffset / size;
+    for (let i = 0; i < count; ++i) numbers.set(all.subarray(first + i * stride, first + i * stride + each), i * each);
+  }
+  if (sparse) {
+    const places = arrayOf(sparse.indices.bufferView, kArrays[sparse.indices.componentType], sparse.count);
+    const values = arrayOf(sparse.values.bufferView, Kind, sparse.count * each);
+    places.forEach((place, i) => numbers.set(values.subarray(i * each, (i + 1) * each), place * each));
+  }
   return numbers;
 }
 
-// A promise of { primitives, materials, pictureOf } of an object_N.glb: of each primitive the arrays by the names of glTF, indices and
-// the number of its material; materials as glTF has them; of a texture of glTF its picture as a blob.
+// A promise of { primitives, materials, pictureOf, motion } of an object_N.glb: of each primitive the arrays by the names of glTF, indices,
+// the number of its material and of its mesh; materials as glTF has them; of a texture of glTF its picture as a blob; a SkinHeadMotion,
+// null for a head that does not move.
 export async function readGlb(url) {
   const bytes = await readBytes(url), header = new DataView(bytes), jsonBytes = header.getUint32(12, true), start = 20 + jsonBytes + 8;
   const json = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 20, jsonBytes)));
@@ -50,14 +63,16 @@ export async function readGlb(url) {
     if (!arrays.has(accessor)) arrays.set(accessor, numbers(accessor));
     return arrays.get(accessor);
   };
-  const primitives = json.meshes[0].primitives.map(({ attributes, indices, material }) => ({
+  const primitives = json.meshes.flatMap((mesh, number) => mesh.primitives.map(({ attributes, indices, material }) => ({
     attributes: Object.fromEntries(Object.entries(attributes).map(([name, accessor]) => [name, shared(accessor)])),
     indices: numbers(indices),
     material,
-  }));
+    mesh: number,
+  })));
+  const motion = json.animations || json.skins || json.meshes.some(mesh => mesh.primitives[0].targets) ? new SkinHeadMotion(json, shared) : null;
   const pictureOf = ({ index }) => {
     const { bufferView, mimeType } = json.images[json.textures[index].source], { byteOffset = 0, byteLength } = json.bufferViews[bufferView];
     return new Blob([new Uint8Array(bytes, start + byteOffset, byteLength)], { type: mimeType });
   };
-  return { primitives, materials: json.materials, pictureOf };
+  return { primitives, materials: json.materials, pictureOf, motion };
 }

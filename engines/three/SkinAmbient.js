@@ -4,7 +4,7 @@
 // which depend on its curvature.
 
 import { REVISION } from "three/webgpu";
-import { float, getShIrradianceAt, isolate, materialEnvIntensity, modelWorldMatrix, normalWorld, vec3, vec4 } from "three/tsl";
+import { float, getShIrradianceAt, isolate, materialEnvIntensity, normalWorld, vec3 } from "three/tsl";
 
 const away = /*@__PURE__*/ normalWorld.negate();
 
@@ -25,11 +25,9 @@ function changeOfNormals(irradiance, here, mean, { ambientNormals, bands: [band1
   return vec3(channels[0].x, channels[1].yz).sub(here);
 }
 
-const toWorld = direction => modelWorldMatrix.mul(vec4(direction, 0)).xyz.normalize();
-
 // Of a light of the scene, null for one that skin does not change: light of one direction, AmbientLight, which has one band.
 export function changeOfLight(lightNode, surface) {
-  const { bands, ambientNormals } = surface;
+  const { bands, ambientNormals, toWorld } = surface;
   if (lightNode.light?.isLightProbe) {
     const harmonics = lightNode.lightProbe, mean = harmonics.element(0).mul(0.886227);
     if (ambientNormals)
@@ -56,6 +54,6 @@ export function changeOfEnvironment(environment, surface) {
   const axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(axis => vec3(...axis));
   const mean = axes.flatMap(axis => [axis, axis.negate()]).map(irradiance).reduce((sum, one) => sum.add(one)).div(6);
   if (surface.ambientNormals)
-    return changeOfNormals(direction => irradiance(toWorld(direction)), irradiance(normalWorld), mean, surface);
+    return changeOfNormals(direction => irradiance(surface.toWorld(direction)), irradiance(normalWorld), mean, surface);
   return change(irradiance(normalWorld), irradiance(away), mean, surface.bands);
 }

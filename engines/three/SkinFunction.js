@@ -52,6 +52,8 @@ export const sphereMixed = /*@__PURE__*/ skinFunction("skin_sphere_mixed", "vec3
 export const vertexTangent = /*@__PURE__*/ skinFunction("skin_vertex_tangent", "vec3", "vec3");
 export const tangentDiagonal = /*@__PURE__*/ skinFunction("skin_tangent_diagonal", "vec3", "vec3", "vec3", "vec3");
 export const tangentMixed = /*@__PURE__*/ skinFunction("skin_tangent_mixed", "vec3", "vec3", "vec3", "vec3");
+// Of a head that moves: a direction in the space of the bakes, by the quaternion of a vertex' frame there and its coordinates in that frame.
+export const turned = /*@__PURE__*/ skinFunction("skin_turned", "vec3", "vec4", "vec3");
 // Baked normals: the level to read, 1 on skin, the mean normals of the channels by the maps' texels, and what follows from them.
 export const bakedLevel = /*@__PURE__*/ skinFunction("skin_baked_level", "float", "vec2", "vec2");
 export const bakedSkin = /*@__PURE__*/ skinFunction("skin_baked_skin", "float", "vec3");

@@ -6,8 +6,8 @@
 //     renderer.shadowMap.enabled = true;
 
 import {
-  Color, DirectionalLight, DoubleSide, EquirectangularReflectionMapping, Group, NoColorSpace, ObjectSpaceNormalMap, PerspectiveCamera, PointLight,
-  SpotLight, TextureLoader, Vector3,
+  AnimationMixer, Color, DirectionalLight, DoubleSide, EquirectangularReflectionMapping, Group, LoopOnce, NoColorSpace, ObjectSpaceNormalMap,
+  PerspectiveCamera, PointLight, SpotLight, TextureLoader, Vector3,
 } from "three/webgpu";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/addons/loaders/HDRLoader.js";
@@ -34,7 +34,7 @@ function skinMaterial(source, settings, shared) {
 }
 
 async function loadObject(folder, object, shared, skins) {
-  const { scene } = await new GLTFLoader().loadAsync(folder + object.file);
+  const { scene, animations } = await new GLTFLoader().loadAsync(folder + object.file);
   const settings = new Map(object.materials.map(one => [one.name, one])), made = new Map();
   const meshes = [];
   scene.traverse(node => { if (node.isMesh) meshes.push(node); });
@@ -54,7 +54,30 @@ async function loadObject(folder, object, shared, skins) {
     }
     mesh.material = made.get(source);
   }
-  return scene;
+  return { scene, animations };
+}
+
+// The clips of all objects by name. For another control of them, `animations` of the parts are three.js' own.
+class SkinMotion {
+  constructor(parts) {
+    this.parts = parts.map(part => ({ ...part, mixer: new AnimationMixer(part.scene) }));
+    const lengths = new Map();
+    for (const { name, duration } of parts.flatMap(({ animations }) => animations)) lengths.set(name, Math.max(duration, lengths.get(name) ?? 0));
+    this.clips = [...lengths].map(([name, length_s]) => ({ name, length_s }));
+  }
+
+  // The head at a time of a clip, whose end is held; without a name as its file opens.
+  pose(name, time_s) {
+    for (const { mixer, animations } of this.parts) {
+      mixer.stopAllAction();
+      const clip = animations.find(one => one.name === name);
+      if (!clip) continue;
+      const action = mixer.clipAction(clip).setLoop(LoopOnce);
+      action.clampWhenFinished = true;
+      action.play();
+      mixer.setTime(time_s);
+    }
+  }
 }
 
 function castShadow(light, { side, radius, near, far, texel }) {
@@ -88,8 +111,8 @@ function lightOf(settings, { bounds }, frustum) {
   return light;
 }
 
-// A promise of { group, skins, camera, environment, environmentIntensity, environmentYaw, background, settings }. Rejected with a
-// sentence where a file is missing. An aspect is for the camera.
+// A promise of { group, skins, motion, camera, environment, environmentIntensity, environmentYaw, background, settings }. Rejected with a
+// sentence where a file is missing. An aspect is for the camera. motion.clips are [{ name, length_s }], motion.pose(name, seconds) moves the head.
 export async function loadSkinHead(folder = new URL("./head/", import.meta.url).href) {
   const settings = await readSettings(folder, "three"), { baked_normals, thickness, environment, camera } = settings;
   const shared = { table: await loadSkinTable(), penumbraMm: settings.penumbra_mm }, frustum = shadowFrustum(settings);
@@ -102,8 +125,9 @@ export async function loadSkinHead(folder = new URL("./head/", import.meta.url).
     shared.thicknessMap.channel = 1;
     shared.thicknessMaxMm = thickness.max_mm;
   }
-  const group = new Group(), skins = [];
-  for (const object of settings.objects) group.add(await loadObject(folder, object, shared, skins));
+  const group = new Group(), skins = [], parts = [];
+  for (const object of settings.objects) parts.push(await loadObject(folder, object, shared, skins));
+  group.add(...parts.map(({ scene }) => scene));
   for (const one of settings.lights) {
     const light = lightOf(one, settings, frustum);
     group.add(light);
@@ -113,7 +137,8 @@ export async function loadSkinHead(folder = new URL("./head/", import.meta.url).
   eye.position.copy(vector(camera.eye_mm));
   eye.up.set(...camera.up);
   eye.lookAt(vector(camera.target_mm));
-  const head = { group, skins, camera: eye, settings, background: new Color().setRGB(...settings.background_linear), environment: null };
+  const motion = new SkinMotion(parts);
+  const head = { group, skins, motion, camera: eye, settings, background: new Color().setRGB(...settings.background_linear), environment: null };
   if (environment) {
     head.environment = await new HDRLoader().loadAsync(folder + environment.file);
     head.environment.mapping = EquirectangularReflectionMapping;

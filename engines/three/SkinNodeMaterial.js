@@ -15,7 +15,7 @@ import {
   twoLobeGgx,
 } from "./SkinFunction.js";
 import { gatheredColor } from "./SkinShadow.js";
-import { readSurface, toMesh } from "./SkinSurface.js";
+import { readSurface } from "./SkinSurface.js";
 import { faultOfTable, maxCurvaturePerMm } from "./SkinTable.js";
 import { colorBehind, thicknessMm } from "./SkinThickness.js";
 
@@ -54,7 +54,7 @@ class SkinLightingModel extends PhysicalLightingModel {
 
   // Light of one direction that leaves, before the albedo.
   diffuse(nDotL, lightDirection, lightColor, lightNode, builder) {
-    const { material, surface } = this, toLight = toMesh(lightDirection).toVar();
+    const { material, surface } = this, toLight = surface.toMesh(lightDirection).toVar();
     const hasOwnShadow = material.penumbraMm > 0 || (material.scattering && material.scatteredShadow);
     const arriving = hasOwnShadow ? gatheredColor(lightNode, lightColor, material, { ...surface, toLight }, builder) : lightColor;
     if (!material.scattering) return arriving.mul(nDotL.max(0));

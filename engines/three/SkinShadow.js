@@ -2,7 +2,7 @@
 
 import { Node, Vector3, Vector4 } from "three/webgpu";
 import {
-  BasicShadowFilter, Break, Fn, If, Loop, bool, cross, dot, float, length, lightShadowMatrix, materialReference, modelWorldMatrix, positionWorld, reference, select,
+  BasicShadowFilter, Break, Fn, If, Loop, bool, cross, dot, float, length, lightShadowMatrix, materialReference, positionWorld, reference, select,
   uniformArray, vec2, vec3, vec4,
 } from "three/tsl";
 import { diskPlaces, firstPlaces, shadowPlaces } from "./SkinShadowPlaces.js";
@@ -12,17 +12,15 @@ import {
 } from "./SkinFunction.js";
 
 const offsets = shadowPlaces.map(([x, y, lift]) => new Vector3(x, y, lift));
-// Meshes are not scaled.
-const inWorld = direction => modelWorldMatrix.mul(vec4(direction, 0)).xyz;
 const weights = shadowPlaces.map(([, , , r, g, b, penumbra]) => new Vector4(r, g, b, penumbra));
 
 class GatheredShadowNode extends Node {
   static get type() { return "GatheredShadowNode"; }
 
-  // All directions are in the mesh's space; the tensor is in 1/mm. The light is multiplied by the gain later.
-  constructor(shadowNode, material, { normal, toLight, diagonal, mixed, gain }) {
+  // All directions are in the mesh's space, of which inWorld() makes the world's; the tensor is in 1/mm. The light is multiplied by the gain later.
+  constructor(shadowNode, material, { normal, toLight, diagonal, mixed, gain, inWorld }) {
     super("vec3");
-    Object.assign(this, { shadowNode, material, normal, toLight, diagonal, mixed, gain });
+    Object.assign(this, { shadowNode, material, normal, toLight, diagonal, mixed, gain, inWorld });
   }
 
   // Millimetres of a texel of the shadow map; 0 for a light that is not directional.
@@ -49,7 +47,7 @@ class GatheredShadowNode extends Node {
   visible(texelMm, unitsPerMm, builder) {
     const sum = float(0).toVar(), radius = materialReference("penumbraMm", "float").mul(0.5);
     Loop(diskPlaces, ({ i }) => {
-      const offset = inWorld(diskOffsetMm(float(i), float(diskPlaces), this.normal, this.toLight, radius, texelMm).toVar());
+      const offset = this.inWorld(diskOffsetMm(float(i), float(diskPlaces), this.normal, this.toLight, radius, texelMm).toVar());
       sum.addAssign(this.seenAt(positionWorld.add(offset.mul(unitsPerMm)), builder));
     });
     return sum.div(diskPlaces);
@@ -67,7 +65,7 @@ class GatheredShadowNode extends Node {
       const x = gatherTangent(normal, toLight, across).toVar(), y = cross(normal, x).toVar();
       const bends = gatherBends(this.diagonal, this.mixed, x, y).toVar();
       const cosine = dot(normal, toLight).toVar(), sine = length(toLight.sub(normal.mul(cosine))).toVar();
-      const xWorld = inWorld(x).toVar(), yWorld = inWorld(y).toVar(), nWorld = inWorld(normal).toVar();
+      const [xWorld, yWorld, nWorld] = [x, y, normal].map(direction => this.inWorld(direction).toVar());
       const origin = positionWorld.add(nWorld.mul(gatherLiftMm(texelMm).mul(unitsPerMm))).toVar();
       const lit = vec3(0).toVar(), all = vec3(0).toVar(), penumbra = float(0).toVar(), settled = bool(false).toVar();
       const red = vec2(0).toVar();  // lit and all of the places that are trusted

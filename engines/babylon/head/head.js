@@ -11,6 +11,7 @@ import { Vector3 } from "@babylonjs/core/Maths/math.vector.js";
 import { PostProcess } from "@babylonjs/core/PostProcesses/postProcess.js";
 import { Scene } from "@babylonjs/core/scene.js";
 import { loadSkinHead, placeSkinCamera } from "../SkinHead.js";
+import { addSkinControls } from "../SkinHeadControls.js";
 
 const query = new URLSearchParams(location.search), message = document.getElementById("message");
 const canvas = document.createElement("canvas"), options = { useExactSrgbConversions: true };
@@ -68,6 +69,7 @@ try {
   engine.resize();
   addEventListener("resize", () => engine.resize());
   await scene.whenReadyAsync();
+  addSkinControls(head.motion, () => {});
   engine.runRenderLoop(() => scene.render());
   await new Promise(done => scene.onAfterRenderObservable.addOnce(() => requestAnimationFrame(done)));
   document.body.dataset.state = "drawn";

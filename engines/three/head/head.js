@@ -4,6 +4,7 @@ import { CustomToneMapping, PCFShadowMap, Scene, Vector3, WebGPURenderer } from 
 import { Fn, vec3 } from "three/tsl";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { addSkinHead, loadSkinHead } from "../SkinHead.js";
+import { addSkinControls } from "../SkinHeadControls.js";
 
 const query = new URLSearchParams(location.search), message = document.getElementById("message");
 
@@ -34,6 +35,7 @@ try {
   controls.update();
   controls.addEventListener("change", draw);
   addEventListener("resize", draw);
+  addSkinControls(head.motion, draw);
   draw();
   await new Promise(done => requestAnimationFrame(done));
   draw();

@@ -14,6 +14,7 @@ import { showFloats } from "./floats.js";
 const query = new URLSearchParams(location.search), side = Number(query.get("side")), points = Number(query.get("points"));
 
 function makeMistake(head, name) {
+  if (name === "frames") for (const mesh of head.meshes) mesh.removeVerticesData("skin_frame");
   for (const skin of head.skins) {
     if (name === "normals") skin.bakedNormals = null;
     if (name === "curvature") skin.curvatureGain = 0.001;
@@ -30,6 +31,7 @@ try {
   const engine = query.has("webgl") ? new Engine(canvas, false, options) : new WebGPUEngine(canvas, options);
   await engine.initAsync?.();
   const scene = new Scene(engine), head = await loadSkinHead(scene);
+  head.motion.pose(query.get("clip"), Number(query.get("time")));
   makeMistake(head, query.get("mistake"));
   for (const skin of head.skins) Object.assign(skin, { scattering: !query.has("lambert"), gain: query.has("gain") });
   scene.imageProcessingConfiguration.applyByPostProcess = true;  // linear

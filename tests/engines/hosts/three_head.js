@@ -1,7 +1,7 @@
 // The head of a package as linear floats for tools/checks/host_floats.mjs, in place of head/head.js: ?side=96&points=4 (4 x 4 points in
 // a pixel), &webgl, &lambert, &gain.
 // Seeded mistakes: &mistake=normals (not bound), curvature (in 1/m), srgb (on a map of directions),
-// levels (baked normals without mip levels).
+// levels (baked normals without mip levels), frames (bakes that do not turn with the surface).
 
 import { FloatType, LinearFilter, NoToneMapping, PCFShadowMap, RenderTarget, Scene, SRGBColorSpace, WebGPURenderer } from "three/webgpu";
 import { addSkinHead, loadSkinHead } from "../SkinHead.js";
@@ -10,6 +10,7 @@ import { showFloats } from "./floats.js";
 const query = new URLSearchParams(location.search), side = Number(query.get("side")), points = Number(query.get("points"));
 
 function makeMistake(head, name) {
+  if (name === "frames") head.group.traverse(node => node.geometry?.deleteAttribute("texcoord_6"));
   for (const skin of head.skins) {
     if (name === "normals") skin.bakedNormals = null;
     if (name === "curvature") skin.curvatureGain = 0.001;
@@ -22,6 +23,7 @@ function makeMistake(head, name) {
 try {
   const head = await loadSkinHead(), scene = new Scene(), wide = side * points;
   addSkinHead(scene, head);
+  head.motion.pose(query.get("clip"), Number(query.get("time")));
   makeMistake(head, query.get("mistake"));
   for (const skin of head.skins) Object.assign(skin, { scattering: !query.has("lambert"), gain: query.has("gain") });
   const renderer = new WebGPURenderer({ forceWebGL: query.has("webgl") });
