@@ -45,7 +45,7 @@ namespace Dermis
             public string name, @class;
             public float f0, roughness, normal_scale;
             public float[] albedo_linear;
-            public bool object_space_normals;
+            public bool object_space_normals, moves;
             public Maps maps;
         }
         [Serializable] sealed class Maps { public string albedo, normal, surface; }
@@ -160,6 +160,7 @@ namespace Dermis
             skin.SetFloat("_ObjectSpaceNormals", one.object_space_normals ? 1 : 0);
             skin.SetFloat("_Roughness", one.roughness);
             skin.SetFloat("_F0", one.f0);
+            skin.SetFloat("_Moves", one.moves ? 1 : 0);
             skin.SetFloat("_PenumbraMm", settings.penumbra_mm);
             if (settings.baked_normals != null && settings.baked_normals.Length == 3)
             {

@@ -23,6 +23,7 @@ Shader "Dermis/Skin Head"
         _CurvatureGain("Factor on the curvature", Range(0, 4)) = 1
         [ToggleUI] _Scattering("Scattering; off: Lambert", Float) = 1
         [ToggleUI] _CurvedGain("What curved skin returns beyond flat skin", Float) = 1
+        [ToggleUI] _Moves("The mesh moves: it has the frames of its bakes", Float) = 0
         [NoScaleOffset] _SkinTable("Skin table", 2D) = "black" {}
     }
     SubShader

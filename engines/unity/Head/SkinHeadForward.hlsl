@@ -2,7 +2,7 @@
 // through thin parts, scattered light of the ambient probe.
 //
 // glTFast mirrors x and turns every pair of texture coordinates upside down: y is 1 - y. "The mesh's space" below is that of the file,
-// in which all maps and tensors are baked.
+// in which all maps and tensors are baked; of a mesh that moves it turns with the frames of the vertices.
 #ifndef DERMIS_SKIN_HEAD_FORWARD
 #define DERMIS_SKIN_HEAD_FORWARD
 
@@ -28,8 +28,15 @@ SAMPLER(sampler_ThicknessMap);
 TEXTURE2D(_SkinTable);
 SAMPLER(sampler_SkinTable);
 
-float3 SkinMeshToWorld(float3 direction) { return TransformObjectToWorldDir(float3(-direction.x, direction.yz)); }
-float3 SkinWorldToMesh(float3 direction) { return TransformWorldToObjectDir(direction) * float3(-1.0, 1.0, 1.0); }
+// The axes of the world in the mesh's space at a pixel.
+static float3 skin_axis_x, skin_axis_y, skin_axis_z;
+
+float3 SkinMeshToWorld(float3 direction) {
+    return normalize(float3(dot(skin_axis_x, direction), dot(skin_axis_y, direction), dot(skin_axis_z, direction)));
+}
+float3 SkinWorldToMesh(float3 direction) {
+    return normalize(skin_axis_x * direction.x + skin_axis_y * direction.y + skin_axis_z * direction.z);
+}
 
 #include "SkinHeadShadow.hlsl"
 
@@ -43,6 +50,8 @@ struct SkinHeadAttributes {
     float2 bendAndRed : TEXCOORD3;
     float2 greenAndBlue : TEXCOORD4;
     float2 occlusion : TEXCOORD5;
+    float2 frameXy : TEXCOORD6;
+    float2 frameZw : TEXCOORD7;
     UNITY_VERTEX_INPUT_INSTANCE_ID
 };
 
@@ -54,8 +63,28 @@ struct SkinHeadVaryings {
     float3 bends : TEXCOORD3;      // numbers of the curvature tensor, in 1/mm
     float3 scattered : TEXCOORD4;  // occlusion, scattered by the profile
     float3 tangentWS : TEXCOORD5;
+    float3 axisX : TEXCOORD6;  // of the world in the mesh's space
+    float3 axisY : TEXCOORD7;
+    float3 axisZ : TEXCOORD8;
     UNITY_VERTEX_OUTPUT_STEREO
 };
+
+// By the frame of the bakes and that of the pose, in a world whose x is mirrored back.
+void SkinSetAxes(SkinHeadAttributes input, inout SkinHeadVaryings output) {
+    const float3 kMirror = float3(-1.0, 1.0, 1.0);
+    if (_Moves < 0.5) {
+        output.axisX = TransformWorldToObjectDir(float3(1.0, 0.0, 0.0)) * kMirror;
+        output.axisY = TransformWorldToObjectDir(float3(0.0, 1.0, 0.0)) * kMirror;
+        output.axisZ = TransformWorldToObjectDir(float3(0.0, 0.0, 1.0)) * kMirror;
+        return;
+    }
+    float4 frame = float4(input.frameXy.x, 1.0 - input.frameXy.y, input.frameZw.x, 1.0 - input.frameZw.y);
+    float3 n = output.normalAndOcclusion.xyz * kMirror, along = output.tangentWS * kMirror;
+    float3 t = normalize(along - n * dot(n, along)), b = cross(n, t);
+    output.axisX = -skin_turned(frame, float3(t.x, b.x, n.x));
+    output.axisY = skin_turned(frame, float3(t.y, b.y, n.y));
+    output.axisZ = skin_turned(frame, float3(t.z, b.z, n.z));
+}
 
 SkinHeadVaryings SkinHeadVertex(SkinHeadAttributes input) {
     SkinHeadVaryings output = (SkinHeadVaryings)0;
@@ -67,6 +96,7 @@ SkinHeadVaryings SkinHeadVertex(SkinHeadAttributes input) {
     output.positionAndFog = float4(positionWS, ComputeFogFactor(output.positionCS.z));
     output.normalAndOcclusion = float4(TransformObjectToWorldNormal(input.normalOS), input.occlusion.x);
     output.tangentWS = TransformObjectToWorldDir(input.tangentOS.xyz);
+    SkinSetAxes(input, output);
     output.bends = float3(input.bends.x, 1.0 - input.bends.y, input.bendAndRed.x);
     output.scattered = float3(1.0 - input.bendAndRed.y, input.greenAndBlue.x, 1.0 - input.greenAndBlue.y);
     return output;
@@ -252,6 +282,9 @@ float4 SkinHeadFragment(SkinHeadVaryings input) : SV_Target {
     UNITY_SETUP_STEREO_EYE_INDEX_POST_VERTEX(input);
     // Not assigned, or imported with a size limit: words instead of wrong light.
     if (any(_SkinTable_TexelSize.zw != kTableSize)) return float4((float3)skin_sign_of_missing_table(input.positionCS.xy), 1.0);
+    skin_axis_x = input.axisX;
+    skin_axis_y = input.axisY;
+    skin_axis_z = input.axisZ;
     SkinHeadSurface s = SkinHeadSurfaceOf(input);
     float3 radiance = SkinHeadLights(s, input) + s.albedo * SkinHeadAmbient(s);
     return float4(MixFog(radiance, input.positionAndFog.w), 1.0);

@@ -18,6 +18,7 @@ CBUFFER_START(UnityPerMaterial)
     float _CurvatureGain;
     float _Scattering;
     float _CurvedGain;
+    float _Moves;
     float4 _NormalsRed_TexelSize;
     float4 _SkinTable_TexelSize;
 CBUFFER_END

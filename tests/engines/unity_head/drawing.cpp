@@ -193,7 +193,14 @@ Result<gpu::Geometry> uploaded(gpu::Device& device, const fs::path& package, con
     for (std::sregex_iterator i(text.begin(), text.end(), attribute), end; i != end; ++i) {
         const std::string semantic = (*i)[2];
         const auto found = primitive.attributes.find(semantic);
-        if (found == primitive.attributes.end()) return Error{"the mesh has no " + semantic};
+        if (found == primitive.attributes.end()) {
+            if (semantic != "TEXCOORD6" && semantic != "TEXCOORD7")
+                return Error{"the mesh has no " + semantic};
+            // Of a mesh that does not move. Unity reads zeros there.
+            const size_t count = primitive.attributes.at("POSITION").size() / 4;
+            streams.push_back({"input." + (*i)[1].str(), 2, std::vector<float>(2 * count)});
+            continue;
+        }
         streams.push_back({"input." + (*i)[1].str(), primitive.components.at(semantic), found->second});
     }
     return gpu::Geometry::upload(device, primitive.material, streams, primitive.indices);
