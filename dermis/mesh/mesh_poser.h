@@ -16,7 +16,7 @@
 namespace dermis::inline mesh {
 
 /// How the vertices of a file move, as lists for a device: in a pose p = sum of share * matrix * (position +
-/// sum of weight * change).
+/// sum of weight * change), and normals likewise before they turn (follow_normals.h).
 struct VertexMotion {
     struct Change {
         uint32_t weight = 0;  ///< index into MotionState::weights
@@ -28,12 +28,13 @@ struct VertexMotion {
     };
     /// At rest, in the file's units and each primitive's own space; normals are 0 where the file has none.
     std::vector<Vec3> positions, normals;
-    /// Of vertex i: changes[first_change[i] .. first_change[i + 1]), and influences likewise.
-    std::vector<uint32_t> first_change, first_influence;
-    std::vector<Change> changes;
+    /// Of vertex i: changes[first_change[i] .. first_change[i + 1]), the others likewise.
+    std::vector<uint32_t> first_change, first_normal_change, first_influence;
+    std::vector<Change> changes, normal_changes;
     std::vector<Influence> influences;
     std::vector<uint32_t> indices;
-    bool targets_turn = false;  ///< some target has normals or tangents, which are not here
+    std::vector<uint8_t>
+        has_normals;  ///< a flag for each weight: its target has normals, which then do not turn
 };
 
 /// A pose of it.

@@ -89,7 +89,14 @@ class ArrayMaker {
         made_.places = weld_.count();
         made_.vertices = uint32_t(mesh_.positions_mm.size());
         add_places();
-        add_blocks();
+        made_.targets = std::max<uint32_t>(1, uint32_t(motion_.has_normals.size()));
+        made_.has_normal_changes = !motion_.normal_changes.empty();
+        add_blocks(
+            "", made_.places, [&](uint32_t place) { return weld_.first[place]; }, motion_.first_change,
+            motion_.changes);
+        add_blocks(
+            "normal ", made_.vertices, [&](uint32_t v) { return mesh_.file_vertices[v]; },
+            motion_.first_normal_change, motion_.normal_changes);
         add_vertices();
         return std::move(made_);
     }
@@ -112,29 +119,27 @@ class ArrayMaker {
         put("places", places), put("influences", influences);
     }
 
-    void add_blocks() {
-        const uint32_t blocks = (made_.places + posing::kPoseBlock - 1) / posing::kPoseBlock;
-        uint32_t& targets = made_.targets = 1;
-        for (const VertexMotion::Change& change : motion_.changes)
-            targets = std::max(targets, change.weight + 1);
-        Words firsts;
-        firsts.all.assign(size_t(targets) * blocks, posing::kNoBlock);
+    // The changes of `count` places or vertices, whose lists are those of the file's vertex `file_vertex(i)`.
+    void add_blocks(const std::string& prefix, uint32_t count, const auto& file_vertex,
+                    const std::vector<uint32_t>& first_change,
+                    const std::vector<VertexMotion::Change>& all_changes) {
+        const uint32_t blocks = (count + posing::kPoseBlock - 1) / posing::kPoseBlock;
+        Words firsts, words;
+        firsts.all.assign(size_t(made_.targets) * blocks, posing::kNoBlock);
         std::vector<Vec3> changes;
-        for (uint32_t place = 0; place < made_.places; ++place) {
-            const uint32_t v = weld_.first[place];
-            for (uint32_t k = motion_.first_change[v]; k < motion_.first_change[v + 1]; ++k) {
-                const VertexMotion::Change& change = motion_.changes[k];
-                uint32_t& first = firsts.all[change.weight * blocks + place / posing::kPoseBlock];
+        for (uint32_t i = 0; i < count; ++i) {
+            const uint32_t v = file_vertex(i);
+            for (uint32_t k = first_change[v]; k < first_change[v + 1]; ++k) {
+                uint32_t& first = firsts.all[all_changes[k].weight * blocks + i / posing::kPoseBlock];
                 if (first == posing::kNoBlock) {
                     first = uint32_t(changes.size());
                     changes.resize(changes.size() + posing::kPoseBlock);
                 }
-                changes[first + place % posing::kPoseBlock] += change.change;
+                changes[first + i % posing::kPoseBlock] += all_changes[k].change;
             }
         }
-        Words words;
         for (const Vec3 change : changes) words.add(change);
-        put("blocks", firsts), put("changes", words);
+        put(prefix + "blocks", firsts), put(prefix + "changes", words);
     }
 
     // The set of joined corners of each file's corner, and the corners of each set.

@@ -20,7 +20,8 @@ struct DeformArray {
 struct DeformArrays {
     std::vector<DeformArray> constant;  ///< what no pose changes
     uint32_t places = 0, vertices = 0;  ///< threads of the passes
-    uint32_t targets = 0;  ///< those of the motion's weights that the arrays know; others move nothing
+    bool has_normal_changes = false;
+    uint32_t targets = 0;  ///< rows of the tables of blocks, at least 1
 };
 
 /// `mesh` is the scene's, whose file_vertices count the motion's. `at_rest_mm`: all vertices of the file at

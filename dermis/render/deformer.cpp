@@ -14,7 +14,7 @@ namespace {
 std::vector<std::byte> bytes_of(const auto& values) {
     const auto view = std::as_bytes(std::span(values));
     std::vector<std::byte> bytes(view.begin(), view.end());
-    constexpr size_t kElement = 16;
+    constexpr size_t kElement = 24;  // a multiple of the size of an active target
     if (bytes.empty()) bytes.resize(kElement);
     return bytes;
 }
@@ -31,43 +31,50 @@ Pass pose_pass(const std::string& mesh, const std::string& what, uint32_t thread
 
 // `mesh` precedes the names of its buffers.
 std::vector<Pass> passes_of(const std::string& mesh, const DeformArrays& made) {
-    return {pose_pass(mesh, "places", made.places,
-                      {{"Places", "places"},
-                       {"Blocks", "blocks"},
-                       {"Changes", "changes"},
-                       {"Influences", "influences"},
-                       {"Targets", "targets"},
-                       {"Matrices", "matrices"},
-                       {"Positions", "positions"},
-                       {"Unmorphed", "unmorphed"}}),
-            pose_pass(mesh, "vertices", made.vertices,
-                      {{"Vertices", "vertices"},
-                       {"Corners", "corners"},
-                       {"Steps", "steps"},
-                       {"Places", "places"},
-                       {"Influences", "influences"},
-                       {"Matrices", "matrices"},
-                       {"Positions", "positions"},
-                       {"Unmorphed", "unmorphed"},
-                       {"PositionStream", "position_mm"},
-                       {"NormalStream", "normal"},
-                       {"TangentStream", "tangent"},
-                       {"DiagonalStream", "curvature_diagonal_per_mm"},
-                       {"MixedStream", "curvature_mixed_per_mm"},
-                       {"DuStream", "du_mm"},
-                       {"DvStream", "dv_mm"},
-                       {"TensionStream", "tension"}})};
+    std::vector<Pass> passes = {pose_pass(mesh, "places", made.places,
+                                          {{"Places", "places"},
+                                           {"Blocks", "blocks"},
+                                           {"Changes", "changes"},
+                                           {"Influences", "influences"},
+                                           {"Targets", "targets"},
+                                           {"Matrices", "matrices"},
+                                           {"Positions", "positions"},
+                                           {"Unmorphed", "unmorphed"}}),
+                                pose_pass(mesh, "vertices", made.vertices,
+                                          {{"NormalBlocks", "normal blocks"},
+                                           {"NormalChanges", "normal changes"},
+                                           {"Targets", "targets"},
+                                           {"Vertices", "vertices"},
+                                           {"Corners", "corners"},
+                                           {"Steps", "steps"},
+                                           {"Places", "places"},
+                                           {"Influences", "influences"},
+                                           {"Matrices", "matrices"},
+                                           {"Positions", "positions"},
+                                           {"Unmorphed", "unmorphed"},
+                                           {"PositionStream", "position_mm"},
+                                           {"NormalStream", "normal"},
+                                           {"TangentStream", "tangent"},
+                                           {"DiagonalStream", "curvature_diagonal_per_mm"},
+                                           {"MixedStream", "curvature_mixed_per_mm"},
+                                           {"DuStream", "du_mm"},
+                                           {"DvStream", "dv_mm"},
+                                           {"TensionStream", "tension"}})};
+    passes.back().constants = {{"has_normal_changes", int32_t(made.has_normal_changes)}};
+    return passes;
 }
 
+// As shaders/renderer/pose.glsl has it.
 struct ActiveTarget {
     uint32_t target = 0;
-    float weight = 0;
+    float weight = 0, weight_before = 0;
 };
 
-std::vector<ActiveTarget> active_targets(std::span<const float> weights, uint32_t targets) {
+std::vector<ActiveTarget> active_targets(std::span<const float> weights,
+                                         std::span<const uint8_t> has_normals) {
     std::vector<ActiveTarget> active;
-    for (uint32_t i = 0; i < std::min<size_t>(weights.size(), targets); ++i)
-        if (weights[i] != 0) active.push_back({i, weights[i]});
+    for (uint32_t i = 0; i < weights.size(); ++i)
+        if (weights[i] != 0) active.push_back({i, weights[i], has_normals[i] ? weights[i] : 0});
     return active;
 }
 
@@ -101,25 +108,26 @@ Result<std::optional<Deformer>> Deformer::create(gpu::Device& device, gpu::Shade
     Deformer deformer(std::move(executor));
     for (const ScenePoser::Posed& posed : poser.all()) {
         if (!posed.file) return std::optional<Deformer>(kOnCpu);
-        DERMIS_TRY_ASSIGN(const VertexMotion motion, posed.file->motion());
-        if (motion.targets_turn) return std::optional<Deformer>(kOnCpu);
+        DERMIS_TRY_ASSIGN(VertexMotion motion, posed.file->motion());
         const SceneObject& object = scene.objects[posed.object];
         DERMIS_TRY_ASSIGN(PosedVertices at_rest, posed.file->pose({}));
         Mesh placed{.positions_mm = std::move(at_rest.positions_mm)};
         place_mesh(placed, object.placement);
         const DeformArrays made = deform_arrays(motion, object.mesh, posed.rest, placed.positions_mm);
-        DERMIS_TRY(deformer.add(device, posed, object.placement, *geometries[posed.object], made));
+        DERMIS_TRY(deformer.add(device, posed, object.placement, *geometries[posed.object], made,
+                                std::move(motion.has_normals)));
     }
     return std::optional<Deformer>(std::move(deformer));
 }
 
 Result<void> Deformer::add(gpu::Device& device, const ScenePoser::Posed& posed, const Placement& placement,
-                           const gpu::Geometry& geometry, const DeformArrays& made) {
+                           const gpu::Geometry& geometry, const DeformArrays& made,
+                           std::vector<uint8_t> has_normals) {
     DeformedMesh mesh{.poser = &*posed.file,
                       .placement = placement,
                       .geometry = &geometry,
                       .name = std::to_string(meshes_.size()) + " ",
-                      .targets = made.targets};
+                      .has_normals = std::move(has_normals)};
     const auto put = [&](const std::string& name, const auto& values) -> Result<void> {
         DERMIS_TRY_ASSIGN(gpu::Array array, gpu::Array::upload(device, name, bytes_of(values)));
         mesh.arrays.emplace(name, std::move(array));
@@ -147,7 +155,7 @@ Result<void> Deformer::pose(const Pose& pose) {
             streamed.push_back(gpu::Array::streamed(bytes_of(values)));
             inputs.buffers[mesh.name + name] = {.array = &streamed.back()};
         };
-        stream("targets", active_targets(state.weights, mesh.targets));
+        stream("targets", active_targets(state.weights, mesh.has_normals));
         stream("matrices", placed_matrices(state, mesh.placement));
     }
     const Result<uint64_t> submitted = executor_.submit(list_, inputs);

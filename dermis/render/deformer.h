@@ -20,8 +20,8 @@ struct DeformArrays;
 class Deformer {
   public:
     /// `geometries`: one an object, with all streams of a mesh in a pose. The poser, the device and they must
-    /// outlive it. Nothing where only the CPU poses: subjects, targets with normals or tangents of their own,
-    /// bakes carried from the rest pose, colours that follow the pose. Errors: the device, a mesh file.
+    /// outlive it. Nothing where only the CPU poses: subjects, bakes carried from the rest pose, colours that
+    /// follow the pose. Errors: the device, a mesh file.
     [[nodiscard]] static Result<std::optional<Deformer>> create(
         gpu::Device& device, gpu::ShaderSource shaders, const Scene& scene, const ScenePoser& poser,
         std::span<const gpu::Geometry* const> geometries);
@@ -43,14 +43,15 @@ class Deformer {
         const MeshPoser* poser = nullptr;
         Placement placement;
         const gpu::Geometry* geometry = nullptr;
-        std::string name;  ///< precedes the names of its buffers
-        uint32_t targets = 0;
+        std::string name;                  ///< precedes the names of its buffers
+        std::vector<uint8_t> has_normals;  ///< VertexMotion::has_normals
         std::map<std::string, gpu::Array> arrays;
     };
 
     explicit Deformer(gpu::Executor executor) : executor_(std::move(executor)) {}
     Result<void> add(gpu::Device& device, const ScenePoser::Posed& posed, const Placement& placement,
-                     const gpu::Geometry& geometry, const DeformArrays& made);
+                     const gpu::Geometry& geometry, const DeformArrays& made,
+                     std::vector<uint8_t> has_normals);
 
     gpu::Executor executor_;
     std::vector<DeformedMesh> meshes_;

@@ -17,7 +17,7 @@ struct Influence {
 // A morph target whose weight is not 0.
 struct ActiveTarget {
     uint target;
-    float weight;
+    float weight, weight_before;  // before: 0 unless it has normals, which then do not turn
 };
 struct MovingVertex {
     uint place;

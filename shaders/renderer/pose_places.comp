@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Morph targets, then skins: where each place is, with and without the targets. A target has changes for whole
+// Morph targets, then skins: where each place is, with and without the targets that turn normals. A target has changes for whole
 // blocks of places, in which some place moves.
 #include "shaders/renderer/pose.glsl"
 
@@ -16,11 +16,14 @@ layout(scalar) writeonly buffer Unmorphed { vec3 unmorphed_mm[]; };
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= positions_mm.length()) return;
-    vec3 rest = places[i].position, p = rest;
+    vec3 p = places[i].position, before = p;
     uint blocks = (positions_mm.length() + kPoseBlock - 1) / kPoseBlock;
     for (uint k = 0; k < targets.length(); ++k) {
         uint first = first_changes[targets[k].target * blocks + gl_WorkGroupID.x];
-        if (first != kNoBlock) p += targets[k].weight * changes[first + gl_LocalInvocationID.x];
+        if (first == kNoBlock) continue;
+        vec3 change = changes[first + gl_LocalInvocationID.x];
+        p += targets[k].weight * change;
+        before += targets[k].weight_before * change;
     }
     vec4 x = vec4(0.0), y = vec4(0.0), z = vec4(0.0);
     uint end = places[i + 1].first_influence;
@@ -31,7 +34,7 @@ void main() {
         y += share * rows[row + 1];
         z += share * rows[row + 2];
     }
-    vec4 q = vec4(rest, 1.0), m = vec4(p, 1.0);
+    vec4 q = vec4(before, 1.0), m = vec4(p, 1.0);
     positions_mm[i] = vec3(dot(x, m), dot(y, m), dot(z, m));
     unmorphed_mm[i] = vec3(dot(x, q), dot(y, q), dot(z, q));
 }

@@ -5,6 +5,11 @@
 // of the atlas, tension.
 #include "shaders/renderer/pose.glsl"
 
+layout(constant_id = 0) const int has_normal_changes = 0;
+
+layout(scalar) readonly buffer NormalBlocks { uint first_normal_changes[]; };  // by target, then block of vertices
+layout(scalar) readonly buffer NormalChanges { vec3 normal_changes[]; };
+layout(scalar) readonly buffer Targets { ActiveTarget targets[]; };
 layout(scalar) readonly buffer Vertices { MovingVertex vertices[]; };
 layout(scalar) readonly buffer Corners { Corner corners[]; };
 layout(scalar) readonly buffer Steps { CornerSteps steps[]; };
@@ -79,8 +84,19 @@ vec3 skinned_normal(uint place, vec3 n) {
     return unit(vec3(dot(yz, n), dot(cross(z, x), n), dot(cross(x, y), n)) * sign(dot(x, yz)));
 }
 
+vec3 morphed_normal(vec3 n) {
+    uint blocks = (position_stream.length() + kPoseBlock - 1) / kPoseBlock;
+    for (uint k = 0; k < targets.length(); ++k) {
+        uint first = first_normal_changes[targets[k].target * blocks + gl_WorkGroupID.x];
+        if (first != kNoBlock) n += targets[k].weight * normal_changes[first + gl_LocalInvocationID.x];
+    }
+    return n;
+}
+
 vec3 posed_normal(MovingVertex vertex, Around around) {
-    vec3 n = skinned_normal(vertex.place, vertex.normal);
+    vec3 n = vertex.normal;
+    if (has_normal_changes != 0) n = morphed_normal(n);
+    n = skinned_normal(vertex.place, n);
     if (dot(n, n) < kLeastNormalSquared)
         return around.normal_after == vec3(0.0) ? vec3(0.0, 1.0, 0.0) : around.normal_after;
     if (around.normal_before == around.normal_after) return n;

@@ -76,22 +76,35 @@ void append_influences(const gltf::Primitive& primitive, size_t vertex, uint32_t
     if (motion.influences.size() == motion.first_influence.back()) motion.influences.push_back({0, 1});
 }
 
+using ChangesOfVertices = std::vector<std::vector<VertexMotion::Change>>;
+
+void append_lists(const ChangesOfVertices& lists, std::vector<uint32_t>& first,
+                  std::vector<VertexMotion::Change>& all) {
+    for (const auto& changes : lists) {
+        first.push_back(uint32_t(all.size()));
+        all.insert(all.end(), changes.begin(), changes.end());
+    }
+}
+
 // Of the vertices of one primitive, by vertex and in the order of the targets.
 void append_changes(gltf::Document& document, const gltf::Instance& instance, uint32_t weight,
                     VertexMotion& motion) {
     gltf::Primitive& primitive = *instance.primitive;
-    std::vector<std::vector<VertexMotion::Change>> of_vertex(primitive.positions.size() / 3);
+    ChangesOfVertices moves(primitive.positions.size() / 3), turns(moves.size());
     const size_t targets = instance.source["targets"].size();
     for (uint32_t i = 0; i < targets && !instance.source.failed(); ++i) {
         const gltf::MorphTarget& target = gltf::morph_target(document, instance.source, primitive, i);
-        motion.targets_turn |= target.has_normals || !target.tangents.empty();
-        for (size_t k = 0; k < target.moved.size() && !instance.source.failed(); ++k)
-            of_vertex[target.moved[k]].push_back({weight + i, target.changes[k]});
+        if (instance.source.failed()) return;
+        motion.has_normals[weight + i] |= target.has_normals;
+        for (size_t k = 0; k < target.moved.size(); ++k)
+            moves[target.moved[k]].push_back({weight + i, target.changes[k]});
+        for (size_t v = 0; v < turns.size() && !target.normals.empty() && !primitive.normals.empty(); ++v) {
+            const Vec3 change = {target.normals[3 * v], target.normals[3 * v + 1], target.normals[3 * v + 2]};
+            if (!(change == Vec3{})) turns[v].push_back({weight + i, change});
+        }
     }
-    for (const auto& changes : of_vertex) {
-        motion.first_change.push_back(uint32_t(motion.changes.size()));
-        motion.changes.insert(motion.changes.end(), changes.begin(), changes.end());
-    }
+    append_lists(moves, motion.first_change, motion.changes);
+    append_lists(turns, motion.first_normal_change, motion.normal_changes);
 }
 
 }  // namespace
@@ -109,6 +122,7 @@ Result<VertexMotion> MeshPoser::State::motion() {
     const std::vector<gltf::Instance> all = drawn({});
     DERMIS_TRY(failure());
     const Slots slots(all);
+    motion.has_normals.resize(slots.weights);
     for (size_t k = 0; k < all.size(); ++k) {
         const gltf::Primitive& primitive = *all[k].primitive;
         const size_t first = motion.positions.size(), count = primitive.positions.size() / 3;
@@ -127,6 +141,7 @@ Result<VertexMotion> MeshPoser::State::motion() {
         gltf::append_triangles(primitive.indices, first, transform.linear.determinant() < 0, motion.indices);
     }
     motion.first_change.push_back(uint32_t(motion.changes.size()));
+    motion.first_normal_change.push_back(uint32_t(motion.normal_changes.size()));
     motion.first_influence.push_back(uint32_t(motion.influences.size()));
     return motion;
 }
