@@ -30,8 +30,12 @@ func _ready() -> void:
 			material.set_shader_parameter("curved_gain", choice.has("gain"))
 			if choice.get("mistake") == "normals":
 				material.set_shader_parameter("baked_normals", false)
+			if choice.get("mistake") == "frames":
+				material.set_shader_parameter("moves", false)
 			if choice.get("mistake") == "curvature":
 				material.set_shader_parameter("curvature_gain", 0.001)
+	if choice.has("clip"):
+		head.pose(choice.clip, float(choice.time))
 	energy = head.environment.background_energy_multiplier
 	head.environment.tonemap_exposure = SCALE
 	# Compatibility does not expose the background.

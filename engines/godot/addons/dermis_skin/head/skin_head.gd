@@ -10,6 +10,7 @@ const MM_PER_UNIT := 1000.0
 var settings: Dictionary
 var skins: Array[ShaderMaterial] = []
 var lights: Array[Light3D] = []
+var players: Array[AnimationPlayer] = []  # of the clips, one for each object that moves
 var environment: Environment
 
 
@@ -42,6 +43,8 @@ static func _set_color(light: Light3D, color_linear: Vector3, intensity: float) 
 func _add_object(object: Dictionary) -> void:
 	var node := (load(FOLDER + object.file) as PackedScene).instantiate()
 	add_child(node)
+	for player: AnimationPlayer in node.find_children("*", "AnimationPlayer", true, false):
+		players.append(player)
 	var by_name := {}
 	for one: Dictionary in object.materials:
 		by_name[one.name] = one
@@ -50,9 +53,22 @@ func _add_object(object: Dictionary) -> void:
 			var source := child.mesh.surface_get_material(surface)
 			var one: Dictionary = by_name.get(source.resource_name, {"class": "other"})
 			if one.class == "skin":
-				child.set_surface_override_material(surface, _skin_material(one))
+				var skin := _skin_material(one)
+				child.set_surface_override_material(surface, skin)
+				for material: ShaderMaterial in [skin, skin.next_pass]:
+					material.set_shader_parameter("skinned", child.skin != null)
+					material.set_shader_parameter("baked_basis", (global_transform.affine_inverse() * child.global_transform).basis)
 			elif one.class == "translucent":
 				child.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_OFF
+
+
+# The head at a time of a clip; see the list of a player's animations for the clips.
+func pose(clip: String, time_s: float) -> void:
+	for player in players:
+		if player.has_animation(clip):
+			player.play(clip)
+			player.seek(time_s, true)
+			player.pause()
 
 
 func _skin_material(one: Dictionary) -> ShaderMaterial:
@@ -62,7 +78,8 @@ func _skin_material(one: Dictionary) -> ShaderMaterial:
 	skin.next_pass.shader = load(FOLDER + "skin_head_through.gdshader")
 	var albedo := _vector(one.albedo_linear)
 	var values := {"f0": one.f0, "roughness": one.roughness, "normal_strength": one.normal_scale, "skin_table": load(TABLE),
-		"albedo": Color(albedo.x, albedo.y, albedo.z).linear_to_srgb(), "object_space_normals": one.object_space_normals}
+		"albedo": Color(albedo.x, albedo.y, albedo.z).linear_to_srgb(), "object_space_normals": one.object_space_normals,
+		"moves": one.moves}
 	for map: String in one.maps:
 		values[map + "_map"] = load(FOLDER + one.maps[map])
 	if settings.has("baked_normals"):
