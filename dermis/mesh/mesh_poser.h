@@ -47,7 +47,7 @@ struct MotionState {
 /// Movable. Keeps the file's buffers, primitives and used morph targets. Not for several threads at once.
 class MeshPoser {
   public:
-    /// Of the options unit_mm and the limits count. Errors: those of parse_mesh().
+    /// Reads only unit_mm and the limits of the options. Errors: those of parse_mesh().
     [[nodiscard]] static Result<MeshPoser> create(std::span<const std::byte> bytes,
                                                   const std::filesystem::path& name,
                                                   const ReadSibling& read_sibling,

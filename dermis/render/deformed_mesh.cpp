@@ -247,8 +247,8 @@ class ArrayMaker {
     const Mesh& mesh_;
     const SurfaceAtRest& rest_;
     std::span<const Vec3> at_rest_mm_;
-    Weld weld_;                            // of the file's vertices
-    std::vector<uint32_t> set_of_vertex_;  // of the file's vertices: whose normal it has
+    Weld weld_;                            // joins equal vertices of the file
+    std::vector<uint32_t> set_of_vertex_;  // by vertex of the file: the set whose normal it has
     CornerTable joined_ = {{}, 0};
     struct {
         std::vector<uint32_t> direction, atlas;

@@ -115,8 +115,8 @@ struct Pass {
     std::vector<ColorTarget> colors;
     std::optional<DepthTarget> depth;
     std::vector<ImageRead> storage;  ///< images a compute pass writes; the first one's size gives its groups
-    /// Compute passes without storage images: threads along x, and buffers of the frame's inputs by the names
-    /// of the shader's storage buffers, which it may write.
+    /// Compute passes without storage images: threads along x, and FrameInputs::buffers by the names
+    /// of the shader's storage buffers. The shader may write them.
     uint32_t threads = 0;
     std::vector<ImageRead> buffers;
     GeometryFilter geometry = GeometryFilter::skin;

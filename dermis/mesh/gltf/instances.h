@@ -37,7 +37,7 @@ class Instances {
 
     /// All that the default scene draws, in its order, or all meshes of a file without nodes.
     [[nodiscard]] std::vector<Instance> in_pose(const Pose& pose);
-    /// Of the last pose.
+    /// The weights of the pose that in_pose() took last.
     [[nodiscard]] const TargetWeights& target_weights() const { return target_weights_; }
     [[nodiscard]] const Affine& to_mm() const { return to_mm_; }
 
@@ -67,7 +67,7 @@ class Instances {
     std::vector<Instance> instances_;
     TargetWeights target_weights_;
     size_t placements_ = 0;
-    size_t vertices_ = 0, indices_ = 0;  // of the instances so far
+    size_t vertices_ = 0, indices_ = 0;  // how many the instances so far have
     bool checked_ = false;
 };
 

@@ -86,7 +86,7 @@ void append_lists(const ChangesOfVertices& lists, std::vector<uint32_t>& first,
     }
 }
 
-// Of the vertices of one primitive, by vertex and in the order of the targets.
+// Appends the changes that the targets make to one primitive: sorted by vertex, then by target.
 void append_changes(gltf::Document& document, const gltf::Instance& instance, uint32_t weight,
                     VertexMotion& motion) {
     gltf::Primitive& primitive = *instance.primitive;

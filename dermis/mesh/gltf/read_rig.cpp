@@ -319,7 +319,7 @@ class RigReader {
     NodePoses poses_;
     NodeTree tree_;
     std::vector<std::vector<Affine>> joints_;  // by skin
-    size_t next_vertex_ = 0;                   // of the file
+    size_t next_vertex_ = 0;                   // its number in the file
     Rig rig_;
 };
 
