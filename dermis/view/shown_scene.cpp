@@ -59,6 +59,8 @@ Result<void> ShownScene::follow_motion() {
         DERMIS_TRY_ASSIGN(ScenePoser poser, ScenePoser::create(scene));
         poser_.emplace(std::move(poser));
     }
+    DERMIS_TRY_ASSIGN(on_device_alone_, stage_->pose_on_device(*poser_, pose));
+    if (on_device_alone_) return {};
     DERMIS_TRY(poser_->pose(pose, scene));
     return stage_->vertices_moved();
 }
