@@ -154,7 +154,7 @@ class UnityHead : public HeadPackage {
     }
 };
 const auto kName = [](const auto& one) { return std::string(one.param); };
-INSTANTIATE_TEST_SUITE_P(, BrowserHead, testing::Values("three", "babylon", "godot"), kName);
+INSTANTIATE_TEST_SUITE_P(, BrowserHead, testing::Values("three", "babylon"), kName);
 INSTANTIATE_TEST_SUITE_P(, MovingHeadPackage, testing::Values("three", "babylon", "godot"), kName);
 INSTANTIATE_TEST_SUITE_P(, GodotHead, testing::Values("godot"), kName);
 INSTANTIATE_TEST_SUITE_P(, UnityHead, testing::Values("unity"), kName);
