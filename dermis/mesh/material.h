@@ -79,6 +79,8 @@ struct Material {
 
     /// Sizes of a tension (mesh/tension.h) at which the wrinkle maps begin and at which they are all.
     float wrinkle_from = 0.05f, wrinkle_full = 0.4f;
+    /// Morph targets whose weights are the least shares of the wrinkle maps; empty: tension alone.
+    std::string wrinkle_stretch_target, wrinkle_compress_target;
 
     float thickness_scale_mm = 1;         ///< thickness of a map value of 1
     float curvature_scale_per_mm = 1;     ///< curvature of a map value of 1

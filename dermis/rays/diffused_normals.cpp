@@ -369,7 +369,7 @@ Result<std::string> content_hash(const Scene& scene, const GaussianSum& profile,
             hasher.add(material.normal_space).add(material.normal_scale).add(material.dilate_texels);
             DERMIS_TRY(add_image(hasher, material.normal_map));
         }
-        DERMIS_TRY(add_wrinkles(hasher, object.mesh));
+        DERMIS_TRY(add_wrinkles(hasher, object));
     }
     return hasher.hex();
 }

@@ -13,11 +13,18 @@ Vec3 sampled(const Texture& map, const SurfaceAttributes& at) {
 }  // namespace
 
 Vec3 mapped_normal(const Material& material, const NormalMaps& maps, const SurfaceAttributes& at) {
-    const Vec3 n = sampled(*maps.normal, at);
-    const Texture* wrinkles = at.tension > 0 ? maps.stretch : maps.compress;
-    if (!wrinkles || wrinkles->empty()) return n;
-    const float share = wrinkle_share(at.tension, material.wrinkle_from, material.wrinkle_full);
-    return share > 0 ? n + (sampled(*wrinkles, at) - n) * share : n;
+    Vec3 n = sampled(*maps.normal, at);
+    const auto share = [&](const Texture* map, float tension, float weight) {
+        if (!map || map->empty()) return 0.0f;
+        return wrinkle_share(tension, material.wrinkle_from, material.wrinkle_full, weight);
+    };
+    const float stretch = share(maps.stretch, at.tension, maps.weights.stretch);
+    const float compress = share(maps.compress, -at.tension, maps.weights.compress);
+    const float scale = wrinkle_scale(stretch, compress);
+    n = n * (1 - (stretch + compress) * scale);
+    if (stretch > 0) n = n + sampled(*maps.stretch, at) * (stretch * scale);
+    if (compress > 0) n = n + sampled(*maps.compress, at) * (compress * scale);
+    return n;
 }
 
 }  // namespace dermis::inline rays

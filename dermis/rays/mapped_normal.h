@@ -5,6 +5,7 @@
 #include "dermis/mesh/material.h"
 #include "dermis/rays/ray_scene.h"
 #include "dermis/rays/texture.h"
+#include "dermis/scene/wrinkles.h"
 
 namespace dermis::inline rays {
 
@@ -13,11 +14,12 @@ struct NormalMaps {
     const Texture* normal = nullptr;
     const Texture* stretch = nullptr;
     const Texture* compress = nullptr;
+    WrinkleWeights weights = {};
 };
 
 /// The mean of the normals in the footprint, in the space of the maps, shorter than 1 where they differ. The
-/// wrinkle map of the tension's sign takes the place of the normal map by wrinkle_share(). Mixing the vectors
-/// themselves keeps it a mean: mips of the maps mix to the mips of the mixture. `maps` has a normal map.
+/// wrinkle maps take the place of the normal map by their wrinkle_share(). Mixing the vectors themselves
+/// keeps it a mean: mips of the maps mix to the mips of the mixture. `maps` has a normal map.
 [[nodiscard]] Vec3 mapped_normal(const Material& material, const NormalMaps& maps,
                                  const SurfaceAttributes& at);
 

@@ -235,6 +235,7 @@ UvFootprint texel_footprint(const Mesh& mesh, uint32_t triangle, int size) {
 struct SkinTexelReader::Impl {
     struct Normals {
         Texture normal, stretch, compress;  // empty: the material has none
+        WrinkleWeights weights = {};
     };
     const Scene* scene;
     std::vector<Flesh> flesh;
@@ -256,7 +257,8 @@ Result<SkinTexelReader> SkinTexelReader::create(const Scene& scene) {
             const Material& material = object.mesh.materials[i];
             if (object.classes[i] != MaterialClass::skin) continue;
             DERMIS_TRY_ASSIGN(of_object[i].normal, normals_of(object.mesh, material, material.normal_map));
-            if (object.mesh.tensions.empty()) continue;
+            if (!shows_wrinkles(object)) continue;
+            of_object[i].weights = wrinkle_weights(material, object.target_weights);
             DERMIS_TRY_ASSIGN(of_object[i].stretch,
                               normals_of(object.mesh, material, material.wrinkle_stretch_map));
             DERMIS_TRY_ASSIGN(of_object[i].compress,
@@ -281,9 +283,12 @@ SkinTexels SkinTexelReader::read(int size) const {
             texel.p_mm = at.p_world_mm;
             texel.n_geometry = at.n_geometry_world;
             const Impl::Normals& maps = impl_->normal_maps[place.object][at.material];
-            texel.n = mean_normal(
-                mesh.materials[at.material],
-                {.normal = &maps.normal, .stretch = &maps.stretch, .compress = &maps.compress}, at);
+            texel.n = mean_normal(mesh.materials[at.material],
+                                  {.normal = &maps.normal,
+                                   .stretch = &maps.stretch,
+                                   .compress = &maps.compress,
+                                   .weights = maps.weights},
+                                  at);
             const bool seen = impl_->flesh[place.object].faces[place.triangle] == SkinFace::visible;
             texel.area_mm2 = seen ? mm2_per_uv2(mesh, place.triangle) / (float(size) * float(size)) : 0;
         }

@@ -86,6 +86,7 @@ Result<MaterialSet> MaterialSet::load(const Scene& scene) {
         std::vector<Entry>& entries = set.objects_.emplace_back();
         for (size_t i = 0; i < object.mesh.materials.size(); ++i) {
             Entry entry{.material = &object.mesh.materials[i]};
+            entry.wrinkle_weights = wrinkle_weights(*entry.material, object.target_weights);
             if (i < object.classes.size()) entry.material_class = object.classes[i];
             for (const Slot& slot : kSlots) {
                 DERMIS_TRY_ASSIGN(const Texture* texture, set.texture_of(entry.material->*slot.source,
@@ -106,10 +107,12 @@ Vec3 MaterialSet::normal_at(const SurfaceAttributes& surface, uint32_t object) c
     const Entry& e = entry(surface, object);
     const Vec3 n = surface.n_geometry_world;
     if (!e.maps.normal) return n;
-    Vec3 mapped = mapped_normal(
-        *e.material,
-        {.normal = e.maps.normal, .stretch = e.maps.wrinkle_stretch, .compress = e.maps.wrinkle_compress},
-        surface);
+    Vec3 mapped = mapped_normal(*e.material,
+                                {.normal = e.maps.normal,
+                                 .stretch = e.maps.wrinkle_stretch,
+                                 .compress = e.maps.wrinkle_compress,
+                                 .weights = e.wrinkle_weights},
+                                surface);
     const float scale = e.material->normal_scale;
     if (e.material->normal_space == NormalSpace::object) return normalize(n + (mapped - n) * scale);
     mapped.x *= scale;
@@ -138,8 +141,10 @@ float MaterialSet::occlusion_at(const SurfaceAttributes& surface, const RayHit& 
 }
 
 SurfaceReflection MaterialSet::reflection_at(const SurfaceAttributes& surface, uint32_t object) const {
-    const auto& [material, material_class, maps] = entry(surface, object);
-    SurfaceReflection made{material->roughness, float(f0_of_eta(material->ior)) * material->specular};
+    const Entry& e = entry(surface, object);
+    const Material& material = *e.material;
+    const Maps& maps = e.maps;
+    SurfaceReflection made{material.roughness, float(f0_of_eta(material.ior)) * material.specular};
     if (maps.specular) made.f0 *= factor(*maps.specular, surface);
     if (maps.roughness)
         made.roughness *= maps.roughness->sample(surface.uv, surface.footprint).x;

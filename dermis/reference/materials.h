@@ -12,6 +12,7 @@
 #include "dermis/rays/ray_scene.h"
 #include "dermis/rays/texture.h"
 #include "dermis/scene/scene.h"
+#include "dermis/scene/wrinkles.h"
 
 namespace dermis::inline reference {
 
@@ -73,6 +74,7 @@ class MaterialSet {
         const Material* material = nullptr;
         MaterialClass material_class = MaterialClass::skin;
         Maps maps;
+        WrinkleWeights wrinkle_weights;
     };
 
     [[nodiscard]] const Entry& entry(const SurfaceAttributes& surface, uint32_t object) const;

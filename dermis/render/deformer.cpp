@@ -106,6 +106,7 @@ Result<std::optional<Deformer>> Deformer::create(gpu::Device& device, gpu::Shade
     if (poser.moves_colors() || scene.rest_bakes.any()) return std::optional<Deformer>(kOnCpu);
     DERMIS_TRY_ASSIGN(gpu::Executor executor, gpu::Executor::create(device, std::move(shaders)));
     Deformer deformer(std::move(executor));
+    for (const SceneObject& object : scene.objects) deformer.still_.push_back(object.target_weights);
     for (const ScenePoser::Posed& posed : poser.all()) {
         if (!posed.file) return std::optional<Deformer>(kOnCpu);
         DERMIS_TRY_ASSIGN(VertexMotion motion, posed.file->motion());
@@ -124,6 +125,7 @@ Result<void> Deformer::add(gpu::Device& device, const ScenePoser::Posed& posed, 
                            const gpu::Geometry& geometry, const DeformArrays& made,
                            std::vector<uint8_t> has_normals) {
     DeformedMesh mesh{.poser = &*posed.file,
+                      .object = posed.object,
                       .placement = placement,
                       .geometry = &geometry,
                       .name = std::to_string(meshes_.size()) + " ",
@@ -141,7 +143,8 @@ Result<void> Deformer::add(gpu::Device& device, const ScenePoser::Posed& posed, 
     return {};
 }
 
-Result<void> Deformer::pose(const Pose& pose) {
+Result<std::vector<TargetWeights>> Deformer::pose(const Pose& pose) {
+    std::vector<TargetWeights> weights = still_;
     gpu::FrameInputs inputs = {.width = 1, .height = 1};
     std::vector<gpu::Array> streamed;
     streamed.reserve(2 * meshes_.size());
@@ -150,16 +153,17 @@ Result<void> Deformer::pose(const Pose& pose) {
         for (const char* stream : {"position_mm", "normal", "tangent", "curvature_diagonal_per_mm",
                                    "curvature_mixed_per_mm", "du_mm", "dv_mm", "tension"})
             inputs.buffers[mesh.name + stream] = {.geometry = mesh.geometry, .stream = stream};
-        DERMIS_TRY_ASSIGN(const MotionState state, mesh.poser->state(pose));
+        DERMIS_TRY_ASSIGN(MotionState state, mesh.poser->state(pose));
         const auto stream = [&](const std::string& name, const auto& values) {
             streamed.push_back(gpu::Array::streamed(bytes_of(values)));
             inputs.buffers[mesh.name + name] = {.array = &streamed.back()};
         };
         stream("targets", active_targets(state.weights, mesh.has_normals));
         stream("matrices", placed_matrices(state, mesh.placement));
+        weights[mesh.object] = std::move(state.target_weights);
     }
     const Result<uint64_t> submitted = executor_.submit(list_, inputs);
-    return submitted ? Result<void>() : submitted.error();
+    return submitted ? Result(std::move(weights)) : submitted.error();
 }
 
 }  // namespace dermis::inline render

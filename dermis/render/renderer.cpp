@@ -157,7 +157,8 @@ Result<bool> Renderer::pose_on_device(const ScenePoser& poser, const Pose& pose)
     if (!*deformer_) return false;
     drop_history();
     DERMIS_TRY(uploaded_->add_tensions(*device_, *scene_));
-    DERMIS_TRY((*deformer_)->pose(pose));
+    DERMIS_TRY_ASSIGN(std::vector<TargetWeights> weights, (*deformer_)->pose(pose));
+    uploaded_->replace_target_weights(*scene_, std::move(weights));
     return true;
 }
 

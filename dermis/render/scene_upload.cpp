@@ -13,6 +13,7 @@
 #include "dermis/render/seam_textures.h"
 #include "dermis/scene/object_checks.h"
 #include "dermis/scene/skin_atlas.h"
+#include "dermis/scene/wrinkles.h"
 #include "shaders/include/constants.h"
 
 namespace dermis::inline render {
@@ -110,7 +111,19 @@ float dielectric_f0(float ior) {
     return r * r;
 }
 
-// The block Material of shaders/include/surface.glsl.
+void add_wrinkle_weights(const Material& material, const TargetWeights& targets, gpu::Values& values) {
+    const WrinkleWeights weights = wrinkle_weights(material, targets);
+    values["wrinkle_stretch_weight"] = weights.stretch;
+    values["wrinkle_compress_weight"] = weights.compress;
+}
+
+std::vector<TargetWeights> target_weights_of(const Scene& scene) {
+    std::vector<TargetWeights> weights;
+    for (const SceneObject& object : scene.objects) weights.push_back(object.target_weights);
+    return weights;
+}
+
+// The block Material of shaders/include/surface.glsl, but for the weights of the wrinkle maps.
 gpu::Values material_values(const Material& material, MaterialClass material_class, const Skin& skin) {
     const bool is_skin = material_class == MaterialClass::skin;
     const Vec3 tint = is_skin ? skin.albedo_tint_linear : Vec3{1, 1, 1};
@@ -219,13 +232,30 @@ Result<void> SceneOnDevice::upload_objects(gpu::Device& device, const Scene& sce
             draws_.push_back(std::move(draw));
         }
     }
+    replace_target_weights(scene, target_weights_of(scene));
     return {};
 }
 
-// Scenes at rest have no such stream.
+// The draws are in the order in which upload_objects made them.
+void SceneOnDevice::put_target_weights(const Scene& scene) {
+    auto draw = draws_.begin();
+    for (size_t i = 0; i < scene.objects.size(); ++i) {
+        const Mesh& mesh = scene.objects[i].mesh;
+        for (const Submesh& submesh : mesh.submeshes)
+            add_wrinkle_weights(mesh.materials[submesh.material], target_weights_[i], draw++->values);
+    }
+}
+
+void SceneOnDevice::replace_target_weights(const Scene& scene, std::vector<TargetWeights> weights) {
+    target_weights_ = std::move(weights);
+    put_target_weights(scene);
+}
+
+// Scenes at rest have no such stream, unless a morph target alone shows wrinkles.
 Result<void> SceneOnDevice::upload_tensions(gpu::Device& device, const Scene& scene) {
-    has_tension_ = std::ranges::any_of(
-        scene.objects, [](const SceneObject& object) { return !object.mesh.tensions.empty(); });
+    has_tension_ = std::ranges::any_of(scene.objects, [](const SceneObject& object) {
+        return !object.mesh.tensions.empty() || shows_wrinkles(object);
+    });
     return has_tension_ ? put_tensions(device, scene) : Result<void>();
 }
 
@@ -259,6 +289,7 @@ Result<void> SceneOnDevice::replace_vertices(gpu::Device& device, const Scene& s
         if (!scene.skin.blood_moves() || mesh.colors_linear.empty()) continue;
         DERMIS_TRY(geometries_[i]->put(device, {"color_linear", 4, floats_of(mesh.colors_linear)}));
     }
+    replace_target_weights(scene, target_weights_of(scene));
     return upload_tensions(device, scene);
 }
 
@@ -275,6 +306,7 @@ Result<void> SceneOnDevice::replace_objects(gpu::Device& device, const Scene& sc
             (draw++)->index_count = submesh.index_count;
         }
     }
+    replace_target_weights(scene, target_weights_of(scene));
     uv_density_ = dermis::uv_density(scene);
     gains_key.clear();
     return upload_tensions(device, scene);
@@ -296,6 +328,7 @@ void SceneOnDevice::update_materials(const Scene& scene) {
             draw->draw_class = draw_class(material, material_class);
             draw++->values = material_values(material, material_class, scene.skin);
         }
+    put_target_weights(scene);
 }
 
 Result<SceneOnDevice> SceneOnDevice::upload(gpu::Device& device, const Scene& scene) {

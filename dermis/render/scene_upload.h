@@ -29,6 +29,9 @@ class SceneOnDevice {
     /// materials. Textures stay, gains become 1. After an error, upload the whole scene.
     [[nodiscard]] Result<void> replace_objects(gpu::Device& device, const Scene& scene);
 
+    /// After objects were posed on the device: the weights of their morph targets, one map an object.
+    void replace_target_weights(const Scene& scene, std::vector<TargetWeights> weights);
+
     /// Gains of the vertices (dermis/rays/vertex_gain.h), one array an object; 1 before.
     [[nodiscard]] Result<void> replace_gains(gpu::Device& device, std::span<const std::vector<Vec3>> gains);
 
@@ -57,6 +60,7 @@ class SceneOnDevice {
   private:
     Result<void> upload_maps(gpu::Device& device, const Scene& scene);
     Result<void> upload_objects(gpu::Device& device, const Scene& scene);
+    void put_target_weights(const Scene& scene);
     Result<void> upload_tensions(gpu::Device& device, const Scene& scene);
     Result<void> put_tensions(gpu::Device& device, const Scene& scene);
     Result<void> upload_environment(gpu::Device& device, const Scene& scene);
@@ -69,6 +73,7 @@ class SceneOnDevice {
     UvDensity uv_density_;
     std::array<Vec3, 9> environment_sh_ = {};
     std::vector<gpu::Draw> draws_;
+    std::vector<TargetWeights> target_weights_;  // of each object, in the pose that the draws show
     bool has_cut_outs_ = false, has_tension_ = false;
     std::vector<std::pair<std::string, int32_t>> map_constants_;
     std::vector<std::string> warnings_;

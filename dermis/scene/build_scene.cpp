@@ -310,6 +310,8 @@ Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject
     }
     if (const Result<void> checked = check_motion(scene.objects, description.motion); !checked)
         return description.file.empty() ? checked.error() : checked.error().within(description.file.string());
+    if (const Result<void> checked = check_wrinkle_targets(scene); !checked)
+        return description.file.empty() ? checked.error() : checked.error().within(description.file.string());
     DERMIS_TRY(check_material_names(description, scene));
     DERMIS_TRY(resolve_profiles(scene, description.file));
 

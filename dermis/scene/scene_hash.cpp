@@ -36,7 +36,7 @@ Result<void> add(Hasher& hasher, const SceneObject& object) {
     add_shape(hasher, object);
     hasher.add(mesh.tangents).add(mesh.uvs).add(mesh.occlusions).add(mesh.colors_linear);
     for (const Material& material : mesh.materials) DERMIS_TRY(add(hasher, material));
-    return add_wrinkles(hasher, mesh);
+    return add_wrinkles(hasher, object);
 }
 
 void add(Hasher& hasher, const Light& light) {

@@ -113,4 +113,21 @@ sets all of them before the others are read: `preset = "cheap"`. `dermis techniq
     return text;
 }
 
+std::string sections_with_key(std::string_view name) {
+    std::vector<std::string> sections;
+    const auto add = [&](const char* section, const auto& table) {
+        if (table.find(name)) sections.push_back(section);
+    };
+    add("[[mesh]]", mesh_keys());
+    add("[maps]", maps_keys());
+    add("[material.NAME]", material_keys());
+    add("[skin]", skin_keys());
+    add("[animation]", animation_keys());
+    add("[[light]]", light_keys());
+    add("[environment]", environment_keys());
+    add("[camera]", camera_keys());
+    if (head_keys().find(name)) sections.push_back("the file, before every section");
+    return join(sections, ", ");
+}
+
 }  // namespace dermis::inline scene

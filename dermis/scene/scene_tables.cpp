@@ -162,6 +162,13 @@ const KeyTable<MapsDescription>& maps_keys() {
                   .doc = "normal map in tangent space, used where a pose stretches the skin (moving.md)"})
             .map(&Material::wrinkle_compress_map,
                  {.name = "wrinkle_compress", .doc = "the same where a pose compresses it"})
+            .of_material(&Material::wrinkle_stretch_target,
+                         {.name = "wrinkle_stretch_target",
+                          .doc = "morph target whose weight is the map's least share",
+                          .needs = &Material::wrinkle_stretch_map})
+            .of_material(&Material::wrinkle_compress_target, {.name = "wrinkle_compress_target",
+                                                              .doc = "the same of wrinkle_compress",
+                                                              .needs = &Material::wrinkle_compress_map})
             .of_material(
                 &Material::wrinkle_from,
                 {.name = "wrinkle_from",
@@ -477,23 +484,6 @@ const KeyTable<CameraDescription>& camera_keys() {
                                   .min = 1,
                                   .max = 120});
     return table;
-}
-
-std::string sections_with_key(std::string_view name) {
-    std::vector<std::string> sections;
-    const auto add = [&](const char* section, const auto& table) {
-        if (table.find(name)) sections.push_back(section);
-    };
-    add("[[mesh]]", mesh_keys());
-    add("[maps]", maps_keys());
-    add("[material.NAME]", material_keys());
-    add("[skin]", skin_keys());
-    add("[animation]", animation_keys());
-    add("[[light]]", light_keys());
-    add("[environment]", environment_keys());
-    add("[camera]", camera_keys());
-    if (head_keys().find(name)) sections.push_back("the file, before every section");
-    return join(sections, ", ");
 }
 
 }  // namespace dermis::inline scene

@@ -14,6 +14,15 @@ bool has_wrinkle_map(const Material& material) {
 
 }  // namespace
 
+WrinkleWeights wrinkle_weights(const Material& material, const TargetWeights& weights) {
+    const auto weight = [&](const ImageSource& map, const std::string& target) {
+        const auto found = map.present() ? weights.find(target) : weights.end();
+        return found == weights.end() ? 0 : std::clamp(found->second, 0.0f, 1.0f);
+    };
+    return {weight(material.wrinkle_stretch_map, material.wrinkle_stretch_target),
+            weight(material.wrinkle_compress_map, material.wrinkle_compress_target)};
+}
+
 bool has_wrinkles(const Scene& scene) {
     return std::ranges::any_of(scene.objects, [](const SceneObject& object) {
         return std::ranges::any_of(object.mesh.materials, has_wrinkle_map);
@@ -32,6 +41,31 @@ Result<void> check_wrinkles(const Material& material) {
     return {};
 }
 
+Result<void> check_wrinkle_targets(const Scene& scene) {
+    std::vector<std::string> targets;
+    for (const SceneObject& object : scene.objects)
+        targets.insert(targets.end(), object.motion.targets.begin(), object.motion.targets.end());
+    for (const SceneObject& object : scene.objects)
+        for (const Material& material : object.mesh.materials)
+            for (const auto& [key, target] :
+                 {std::pair{"wrinkle_stretch_target", &material.wrinkle_stretch_target},
+                  std::pair{"wrinkle_compress_target", &material.wrinkle_compress_target}}) {
+                if (target->empty() || std::ranges::count(targets, *target) > 0) continue;
+                return Error{"material '" + material.name + "': " + key + ": " +
+                             (targets.empty() ? "no mesh has morph targets"
+                                              : unknown_name("morph target", *target, targets))};
+            }
+    return {};
+}
+
+bool shows_wrinkles(const SceneObject& object) {
+    return std::ranges::any_of(object.mesh.materials, [&](const Material& material) {
+        const WrinkleWeights weights = wrinkle_weights(material, object.target_weights);
+        return has_wrinkle_map(material) &&
+               (!object.mesh.tensions.empty() || weights.stretch > 0 || weights.compress > 0);
+    });
+}
+
 std::vector<std::string> tension_warnings(const Scene& scene) {
     const bool reads_tension = scene.skin.blood_by_tension > 0 || has_wrinkles(scene);
     const auto moves = [](const SceneObject& object) { return !object.motion.empty(); };
@@ -39,10 +73,13 @@ std::vector<std::string> tension_warnings(const Scene& scene) {
     return {"wrinkle maps and skin.blood_by_tension show nothing: no mesh has clips or morph targets"};
 }
 
-Result<void> add_wrinkles(Hasher& hasher, const Mesh& mesh) {
-    if (mesh.tensions.empty() || std::ranges::none_of(mesh.materials, has_wrinkle_map)) return {};
-    hasher.add(mesh.tensions);
-    for (const Material& material : mesh.materials) {
+Result<void> add_wrinkles(Hasher& hasher, const SceneObject& object) {
+    if (!shows_wrinkles(object)) return {};
+    hasher.add(object.mesh.tensions);
+    for (const Material& material : object.mesh.materials) {
+        const WrinkleWeights weights = wrinkle_weights(material, object.target_weights);
+        if (weights.stretch > 0) hasher.add("stretch").add(weights.stretch);
+        if (weights.compress > 0) hasher.add("compress").add(weights.compress);
         hasher.add(material.wrinkle_from).add(material.wrinkle_full);
         DERMIS_TRY(add_image(hasher, material.wrinkle_stretch_map));
         DERMIS_TRY(add_image(hasher, material.wrinkle_compress_map));

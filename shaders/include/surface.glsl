@@ -36,6 +36,7 @@ layout(scalar) uniform Material {
     float scatter;                 // share of the skin's diffuse light that scatters
     int has_wrinkle_map;           // bits: kWrinkleStretch, kWrinkleCompress
     float wrinkle_from, wrinkle_full;  // tensions
+    float wrinkle_stretch_weight, wrinkle_compress_weight;  // of the maps' morph targets, 0 to 1
 };
 
 // Whether any material of the scene has the map; without one, the value 1 is a constant.
@@ -84,17 +85,26 @@ float magnification_levels(sampler2D map, vec2 uv) {
     return max(-textureQueryLod(map, uv).y, 0.0);
 }
 
+// Of the maps of stretched and of compressed skin.
+vec2 wrinkle_shares() {
+    float stretch = (has_wrinkle_map & kWrinkleStretch) == 0
+                        ? 0.0
+                        : wrinkle_share(tension_in, wrinkle_from, wrinkle_full, wrinkle_stretch_weight);
+    float compress = (has_wrinkle_map & kWrinkleCompress) == 0
+                         ? 0.0
+                         : wrinkle_share(-tension_in, wrinkle_from, wrinkle_full, wrinkle_compress_weight);
+    return vec2(stretch, compress) * wrinkle_scale(stretch, compress);
+}
+
 // The mean of the normals that a read of the map covers, a positive bias covering more (Penner 2011), in the map's space:
-// shorter than 1 where they differ. A wrinkle map takes the normal map's place by its share; dermis/rays/mapped_normal.h
+// shorter than 1 where they differ. Wrinkle maps take the normal map's place by their shares; dermis/rays/mapped_normal.h
 // has the same.
 vec3 mean_of_normal_map(vec2 uv, float lod_bias) {
     vec3 n = texture(normal_map, uv, lod_bias).xyz;
     if (has_wrinkles != 0) {
-        bool is_stretched = tension_in > 0.0;
-        vec3 wrinkles = texture(wrinkle_maps, vec3(uv, is_stretched ? 0.0 : 1.0), lod_bias).xyz;
-        int map = is_stretched ? kWrinkleStretch : kWrinkleCompress;
-        float share = (has_wrinkle_map & map) != 0 ? wrinkle_share(tension_in, wrinkle_from, wrinkle_full) : 0.0;
-        n = mix(n, wrinkles, share);
+        vec2 shares = wrinkle_shares();
+        n = n * (1.0 - shares.x - shares.y) + texture(wrinkle_maps, vec3(uv, 0.0), lod_bias).xyz * shares.x +
+            texture(wrinkle_maps, vec3(uv, 1.0), lod_bias).xyz * shares.y;
     }
     return n * 2.0 - 1.0;
 }

@@ -111,3 +111,13 @@ TEST_F(Wrinkles, have_the_same_normals_in_the_renderer_and_in_the_reference) {
         EXPECT_GT(agreement(scene, drawn).largest, 0.2) << lift << ": without the maps";
     }
 }
+
+// Stretched skin has a share of the map for compressed skin, too.
+TEST_F(Wrinkles, by_target_have_the_same_normals_in_the_renderer_and_in_the_reference) {
+    Scene scene = sheet("0.6");
+    scene.objects[0].mesh.materials[0].wrinkle_compress_target = "lift";
+    const Image drawn = drawn_normals(scene);
+    EXPECT_LT(agreement(scene, drawn).largest, 0.02);
+    scene.objects[0].target_weights.clear();
+    EXPECT_GT(agreement(scene, drawn).largest, 0.2) << "by tension alone";
+}

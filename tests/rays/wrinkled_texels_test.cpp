@@ -30,8 +30,12 @@ Scene tense_plane(float tension) {
     return scene;
 }
 
-float lean_at(float tension) {
-    const Scene scene = tense_plane(tension);
+float lean_at(float tension, const TargetWeights& weights = {}) {
+    Scene scene = tense_plane(tension);
+    scene.objects[0].target_weights = weights;
+    Material& material = scene.objects[0].mesh.materials[0];
+    material.wrinkle_stretch_target = "raise", material.wrinkle_compress_target = "squeeze";
+    if (tension == 0) scene.objects[0].mesh.tensions.clear();
     const auto reader = SkinTexelReader::create(scene);
     EXPECT_TRUE(reader) << reader.error().message;
     const SkinTexels texels = reader->read(8);
@@ -52,6 +56,17 @@ TEST(WrinkledTexels, have_the_normals_of_the_map_of_their_tensions_sign_by_its_s
                                             {-0.15f, -0.2f},
                                             {-0.3f, -0.8f}})
         EXPECT_NEAR(lean_at(tension), expected, 0.01f) << tension;
+}
+
+TEST(WrinkledTexels, have_a_targets_weight_as_the_least_share_of_its_map) {
+    EXPECT_EQ(lean_at(0, {{"raise", 1.0f}}), lean_at(2));
+    EXPECT_EQ(lean_at(0, {{"squeeze", 7.0f}}), lean_at(-2)) << "clamped";
+    EXPECT_EQ(lean_at(0.2f, {{"raise", 0.0f}}), lean_at(0.2f));
+    EXPECT_EQ(lean_at(0.2f, {{"raise", -1.0f}}), lean_at(0.2f));
+    EXPECT_EQ(lean_at(0.2f, {{"raise", 0.4f}}), lean_at(0.2f)) << "half by tension";
+    EXPECT_NEAR(lean_at(0.12f, {{"raise", 0.5f}}), 0.3f, 0.01f) << "a tenth by tension";
+    EXPECT_NEAR(lean_at(0, {{"raise", 0.25f}, {"squeeze", 0.5f}}), 0.25f * 0.6f - 0.5f * 0.8f, 0.01f);
+    EXPECT_NEAR(lean_at(2, {{"squeeze", 1.0f}}), 0.5f * 0.6f - 0.5f * 0.8f, 0.01f) << "one of both in all";
 }
 
 }  // namespace dermis

@@ -141,6 +141,42 @@ TEST_F(DeformerTest, a_scene_loaded_in_a_pose_goes_back_to_rest) {
         EXPECT_LT(found.largest, stream.ends_with("_mm") ? 1e-3 : 1e-4) << stream;
 }
 
+// Only the target of the wrinkle map has a share: the tension at which it begins is never reached.
+TEST_F(DeformerTest, wrinkles_by_target_are_those_after_an_upload) {
+    const auto map = [](const std::string& name, uint8_t x) {
+        return ImageSource{.name = name,
+                           .width = 1,
+                           .height = 1,
+                           .channels = 3,
+                           .pixels = {std::byte{x}, std::byte{128}, std::byte{220}}};
+    };
+    Scene one = loaded(sheet());
+    Material& material = one.objects[0].mesh.materials[0];
+    material.normal_map = map("flat", 128), material.wrinkle_stretch_map = map("wrinkle", 220);
+    material.wrinkle_stretch_target = "lift";
+    material.wrinkle_from = 3, material.wrinkle_full = 4;
+    Scene other = one, unwrinkled = one;
+    unwrinkled.objects[0].mesh.materials[0].wrinkle_stretch_target.clear();
+    Renderer on_device = make_renderer(one), on_cpu = make_renderer(other),
+             without = make_renderer(unwrinkled);
+    const auto device_poser = ScenePoser::create(one), cpu_poser = ScenePoser::create(other);
+    ASSERT_TRUE(device_poser && cpu_poser);
+    const Technique& technique = built_in_technique("lambert");
+    const DrawSettings settings = {.width = 64, .height = 64};
+    for (const double time_s : {1.5, 0.2}) {
+        const Pose pose = {.clip = "nod", .time_s = time_s};
+        const Result<bool> posed = on_device.pose_on_device(*device_poser, pose);
+        ASSERT_TRUE(posed && *posed);
+        on_device.materials_changed();  // keeps the weights
+        ASSERT_TRUE(cpu_poser->pose(pose, other));
+        ASSERT_TRUE(on_cpu.vertices_moved());
+        ASSERT_TRUE(*without.pose_on_device(*device_poser, pose));
+        const Image a = radiance(on_device, technique, settings);
+        EXPECT_LT(mean_difference(a, radiance(on_cpu, technique, settings)), 1e-3) << time_s;
+        EXPECT_GT(mean_difference(a, radiance(without, technique, settings)), 5e-3) << time_s;
+    }
+}
+
 TEST_F(DeformerTest, a_picture_is_that_after_an_upload) {
     Scene one = loaded(sheet()), other = loaded(sheet());
     Renderer on_device = make_renderer(one), on_cpu = make_renderer(other);

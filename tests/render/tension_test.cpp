@@ -158,6 +158,27 @@ TEST_F(WrinklePicture, above_the_full_tension_is_that_of_the_wrinkle_map_as_norm
         }
 }
 
+TEST_F(WrinklePicture, of_a_targets_weight_of_1_is_that_of_the_wrinkle_map_as_normal_map) {
+    for (const bool at_rest : {false, true})
+        for (const std::string technique : {"lambert", "preintegrated"}) {
+            Scene scene = evenly_tense_grid(0);
+            if (at_rest) scene.objects[0].mesh.tensions.clear();
+            const Image rest = drawn(scene, technique);
+            add_wrinkle_maps(scene);
+            Material& material = scene.objects[0].mesh.materials[0];
+            material.wrinkle_stretch_target = "raise";
+            scene.objects[0].target_weights = {{"raise", 0.0f}};
+            EXPECT_EQ(drawn(scene, technique).bytes, rest.bytes) << technique << at_rest;
+            scene.objects[0].target_weights = {{"raise", 1.0f}};
+            const Image wrinkled = drawn(scene, technique);
+            material.normal_map = material.wrinkle_stretch_map;
+            material.wrinkle_stretch_map = material.wrinkle_compress_map = {};
+            // Some devices round a mixture by the weight 1.
+            EXPECT_LT(largest_difference(wrinkled, drawn(scene, technique)), 1e-5f) << technique << at_rest;
+            EXPECT_GT(largest_difference(wrinkled, rest), 1e-2f) << technique << at_rest;
+        }
+}
+
 TEST_F(WrinklePicture, of_one_map_ignores_the_other_sign) {
     for (const float tension : {0.5f, -0.5f}) {
         Scene scene = evenly_tense_grid(tension);

@@ -79,6 +79,32 @@ TEST_F(WrinkleKeys, change_the_scenes_hash_in_a_pose_alone) {
     EXPECT_EQ(hash(kStretch, ""), hash(kFlat, "")) << "at rest";
 }
 
+TEST_F(WrinkleKeys, may_name_a_morph_target) {
+    const std::string by_target = kStretch + "wrinkle_stretch_target = \"lift\"\n";
+    const auto scene = load(by_target, "sheet.gltf", "lift = 0.25");
+    ASSERT_TRUE(scene) << scene.error().message;
+    const SceneObject& object = scene->objects[0];
+    EXPECT_EQ(wrinkle_weights(object.mesh.materials[0], object.target_weights).stretch, 0.25f);
+    EXPECT_EQ(wrinkle_weights(object.mesh.materials[0], object.target_weights).compress, 0.0f);
+    EXPECT_EQ(wrinkle_weights(object.mesh.materials[0], {{"lift", 7.0f}}).stretch, 1.0f);
+    EXPECT_EQ(wrinkle_weights(object.mesh.materials[0], {{"lift", -1.0f}}).stretch, 0.0f);
+    EXPECT_NE(hash(by_target), hash(kStretch));
+    EXPECT_EQ(hash(by_target, ""), hash(kStretch, "")) << "at rest";
+    EXPECT_FALSE(shows_wrinkles(load(by_target, "sheet.gltf", "")->objects[0]));
+}
+
+TEST_F(WrinkleKeys, of_a_target_that_no_mesh_has_are_refused_with_the_nearest_name) {
+    EXPECT_THAT(error(kStretch + "wrinkle_stretch_target = \"lfit\"\n"),
+                HasSubstr("s.toml: material 'skin': wrinkle_stretch_target: unknown morph target 'lfit'; did "
+                          "you mean 'lift'"));
+    const auto still = load(kStretch + "wrinkle_stretch_target = \"lift\"\n", "still.obj", "");
+    ASSERT_FALSE(still);
+    EXPECT_THAT(still.error().message, HasSubstr("no mesh has morph targets"));
+    EXPECT_THAT(load(kStretch + "wrinkle_compress_target = \"lift\"\n")->warnings,
+                ::testing::Contains(HasSubstr("wrinkle_compress_target")))
+        << "without its map";
+}
+
 TEST_F(WrinkleKeys, that_are_wrong_are_refused_in_one_line) {
     EXPECT_THAT(error(kStretch + "wrinkle_from = 0.4\n"),
                 HasSubstr("material 'skin': wrinkle_from is 0.4; it must be smaller than wrinkle_full, 0.4"));
