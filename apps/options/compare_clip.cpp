@@ -23,6 +23,21 @@ Result<std::vector<double>> clip_times(const CompareChoice& choice) {
     return times;
 }
 
+Result<IndexRange> clip_range(const std::string& frame_range, int count) {
+    if (frame_range.empty()) return IndexRange{0, count};
+    DERMIS_TRY_ASSIGN(const IndexRange range, parse_index_range("--frame-range", frame_range));
+    if (range.begin < range.end && range.end <= count) return range;
+    return Error{"--frame-range " + frame_range + ": not a range of the " + std::to_string(count) +
+                 " frames (--frames); write BEGIN:END, such as 0:1"};
+}
+
+Result<Scene> clip_view(const CompareChoice& choice, double time_s) {
+    SceneChoice moment = choice.scene;
+    moment.pose.time_s = time_s;
+    DERMIS_TRY_ASSIGN(const Scene scene, moment.load());
+    return without_objects(scene);
+}
+
 Result<SubjectCase> clip_frame(const CompareChoice& choice, double time_s, const Scene* first) {
     CompareChoice moment = choice;
     moment.scene.pose.time_s = time_s;
@@ -35,6 +50,14 @@ Result<SubjectCase> clip_frame(const CompareChoice& choice, double time_s, const
     return SubjectCase{
         .name = fmt::format("{} {} {:.3f} s", choice.scene.name, choice.scene.pose.clip, time_s),
         .scene = std::move(scene)};
+}
+
+Result<void> ComparedFrames::add(const SubjectCase& one, double time_s, const Comparison& comparison) {
+    all.push_back({.time_s = time_s, .rows = score_rows(one.name, comparison)});
+    ClipEffects effects = clip_effects(comparison);
+    if (last) DERMIS_TRY(set_motion_shares(*last, effects, all.back().rows));
+    last = std::move(effects);
+    return {};
 }
 
 }  // namespace dermis::cli

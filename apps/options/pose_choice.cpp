@@ -6,7 +6,7 @@ namespace dermis::cli {
 
 void PoseChoice::add_to(Command& command) {
     command.add_option("--clip", clip, "animation of the mesh file, listed by dermis info");
-    command.add_option("--time", time_s, {0, 1e6}, "time in the clip in seconds; its end is held");
+    command.add_option("--time", time_s, kTimeRange, "time in the clip in seconds; its end is held");
     command
         .add_option("--morph", morphs,
                     "TARGET=WEIGHT of a morph target, such as jawOpen=0.6; may be repeated")

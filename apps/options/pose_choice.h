@@ -10,6 +10,8 @@
 
 namespace dermis::cli {
 
+inline constexpr NumberRange kTimeRange = {0, 1e6}, kFpsRange = {0, 1000};
+
 struct PoseChoice {
     std::string clip;                 ///< empty: the scene's
     std::optional<double> time_s;     ///< in the clip; none: the scene's

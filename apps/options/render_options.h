@@ -12,6 +12,8 @@
 
 namespace dermis::cli {
 
+inline constexpr NumberRange kRenderFramesRange = {1, 100000};
+
 struct RenderOptions {
     SceneChoice scene = {.name = "bust"};
     std::string technique, size = "1024x1024", view = "final", device;
@@ -35,6 +37,12 @@ struct Prepared {
 [[nodiscard]] Result<Prepared> prepare(const RenderOptions& options);
 /// The same, but complete_scene() is still to come.
 [[nodiscard]] Result<Prepared> prepare_unbaked(const RenderOptions& options);
+
+/// prepare() a frame of the options' clip, `after_s` later than their --time. Each frame is a scene of its
+/// own, loaded in its pose; camera and lights are those of the first, so that the view does not follow the
+/// face.
+[[nodiscard]] Result<Prepared> prepare_frame(const RenderOptions& options, double after_s,
+                                             const Scene& first);
 
 /// 1 or 4 a pixel.
 [[nodiscard]] Result<void> check_samples(int samples);

@@ -4,6 +4,7 @@
 
 #include "arrays.h"
 #include "catalog/catalog.h"
+#include "compare_clip.h"
 #include "compare_options.h"
 #include "compare_scenes.h"
 #include "compare_text.h"
@@ -72,6 +73,35 @@ Result<std::vector<OneComparison>> compare_all(const cli::CompareChoice& choice,
     return made;
 }
 
+// The frames of a clip, and the shares over all of them.
+struct ClipComparison {
+    std::vector<OneComparison> frames;
+    std::string json;  ///< of `dermis compare --json` without the frames
+    std::vector<double> times_s;
+};
+
+Result<ClipComparison> compare_frames(const cli::CompareChoice& choice, const ComparisonSettings& settings,
+                                      Watch& watch) {
+    DERMIS_TRY_ASSIGN(const std::vector<Contestant> contestants, choice.contestants());
+    ClipComparison clip;
+    DERMIS_TRY_ASSIGN(clip.times_s, cli::clip_times(choice));
+    const Result<LentDevice> device = lend_device(choice.device);
+    if (!device) return device.error();
+    cli::ComparedFrames compared;
+    std::optional<Scene> first;
+    const double share = 1 / double(clip.times_s.size());
+    for (const double time_s : clip.times_s) {
+        DERMIS_TRY_ASSIGN(const SubjectCase one, cli::clip_frame(choice, time_s, first ? &*first : nullptr));
+        DERMIS_TRY_ASSIGN(OneComparison made, compare_one(device->device(), one, contestants, settings, watch,
+                                                          share * double(clip.frames.size()), share));
+        DERMIS_TRY(compared.add(one, time_s, made.comparison));
+        clip.frames.push_back(std::move(made));
+        if (!first) first = without_objects(one.scene);
+    }
+    clip.json = cli::clip_json(choice.scene.pose.clip, compared.all, nullptr).dump();
+    return clip;
+}
+
 OwnPicture own_picture(const py::handle& name, const py::handle& pair) {
     const std::string text = py::str(name), place = "pictures['" + text + "']";
     if (!py::isinstance<py::sequence>(pair) || py::len(pair) != 2)
@@ -82,9 +112,13 @@ OwnPicture own_picture(const py::handle& name, const py::handle& pair) {
             .without = picture_from(both[1], place + "[1]")};
 }
 
-std::vector<OneComparison> compare(const SceneArguments& scene, const std::string& techniques,
-                                   const py::dict& pictures, const py::dict& given,
-                                   const py::object& progress) {
+struct CompareCall {
+    cli::CompareChoice choice;
+    ComparisonSettings settings;
+};
+
+CompareCall compare_call(const SceneArguments& scene, const std::string& techniques, const py::dict& pictures,
+                         const py::dict& given) {
     cli::CompareChoice choice;
     choice.scene = scene_choice(scene);
     choice.techniques = techniques;
@@ -96,9 +130,28 @@ std::vector<OneComparison> compare(const SceneArguments& scene, const std::strin
     take(choice.samples_per_pixel, given, "samples_per_pixel");
     take(choice.timed_frames, given, "timed_frames");
     take(choice.noise, given, "noise");
+    take(choice.frames, given, "frames");
+    take(choice.fps, given, "fps");
+    if (given.contains("frames")) check(cli::check_number("--frames", choice.frames, cli::kClipFramesRange));
+    check(cli::check_number("--fps", choice.fps, cli::kFpsRange));
+    if (choice.frames > 0 && !pictures.empty())
+        throw Failure({"pictures show one frame; leave frames out and give its time"});
     ComparisonSettings settings = value_of(choice.settings());
     for (const auto& [name, pair] : pictures) settings.pictures.push_back(own_picture(name, pair));
-    return watched(progress, [&](Watch& watch) { return compare_all(choice, settings, watch); });
+    return {std::move(choice), std::move(settings)};
+}
+
+std::vector<OneComparison> compare(const SceneArguments& scene, const std::string& techniques,
+                                   const py::dict& pictures, const py::dict& given,
+                                   const py::object& progress) {
+    const CompareCall call = compare_call(scene, techniques, pictures, given);
+    return watched(progress, [&](Watch& watch) { return compare_all(call.choice, call.settings, watch); });
+}
+
+ClipComparison compare_clip(const SceneArguments& scene, const std::string& techniques,
+                            const py::dict& pictures, const py::dict& given, const py::object& progress) {
+    const CompareCall call = compare_call(scene, techniques, pictures, given);
+    return watched(progress, [&](Watch& watch) { return compare_frames(call.choice, call.settings, watch); });
 }
 
 // Picture of a technique's row, or of the reference.
@@ -130,7 +183,12 @@ void add_comparisons(py::module_& module) {
         .def_readonly("json", &OneComparison::json)
         .def_readonly("warnings", &OneComparison::warnings)
         .def_property_readonly("names", row_names);
+    py::class_<ClipComparison>(module, "ClipComparison")
+        .def_readonly("json", &ClipComparison::json)
+        .def_readonly("times_s", &ClipComparison::times_s)
+        .def("take_frames", [](ClipComparison& clip) { return std::move(clip.frames); });
     module.def("compare", compare);
+    module.def("compare_clip", compare_clip);
     module.def("comparison_picture", picture);
 }
 

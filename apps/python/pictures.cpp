@@ -1,5 +1,7 @@
 // render() and reference(): pictures of a scene as arrays and as files.
 
+#include <algorithm>
+
 #include "arrays.h"
 #include "catalog/catalog.h"
 #include "dermis/jobs/picture_file.h"
@@ -23,13 +25,10 @@ struct RenderedPicture {
     std::string technique;
 };
 
-Result<RenderedPicture> draw(const cli::RenderOptions& options, int bits) {
-    DERMIS_TRY_ASSIGN(cli::Prepared prepared, cli::prepare(options));
-    const Result<LentDevice> device = lend_device(options.device);
-    if (!device) return device.error();
-    DERMIS_TRY_ASSIGN(Renderer renderer,
-                      Renderer::create(device->device(), gpu::embedded_shaders(built_in_catalog().shaders),
-                                       prepared.scene));
+Result<RenderedPicture> draw(gpu::Device& device, cli::Prepared& prepared, int bits) {
+    DERMIS_TRY_ASSIGN(
+        Renderer renderer,
+        Renderer::create(device, gpu::embedded_shaders(built_in_catalog().shaders), prepared.scene));
     prepared.draw.deep = bits == 16;
     DERMIS_TRY(renderer.draw(*prepared.technique, *prepared.values, prepared.draw));
     Result<Image> linear = linear_picture(renderer, prepared.draw.view);
@@ -47,18 +46,56 @@ Result<RenderedPicture> draw(const cli::RenderOptions& options, int bits) {
     return picture;
 }
 
-RenderedPicture render(const SceneArguments& scene, const std::string& technique,
-                       const std::vector<std::string>& settings, const std::string& size,
-                       const std::string& view, int samples, int bits, const std::string& device) {
+// Frames of the clip; without any, one picture of the pose.
+struct Frames {
+    int count = 0;
+    double fps = 0;
+};
+
+Result<std::vector<RenderedPicture>> draw_all(const cli::RenderOptions& options, Frames frames, int bits,
+                                              Watch& watch) {
+    DERMIS_TRY_ASSIGN(cli::Prepared first, cli::prepare(options));
+    const Result<LentDevice> device = lend_device(options.device);
+    if (!device) return device.error();
+    std::vector<RenderedPicture> pictures;
+    const auto add = [&](cli::Prepared& prepared) -> Result<void> {
+        DERMIS_TRY_ASSIGN(RenderedPicture drawn, draw(device->device(), prepared, bits));
+        pictures.push_back(std::move(drawn));
+        watch.report(double(pictures.size()) / std::max(frames.count, 1));
+        return {};
+    };
+    DERMIS_TRY(add(first));
+    for (int i = 1; i < frames.count && !watch.stopped(); ++i) {
+        DERMIS_TRY_ASSIGN(cli::Prepared posed, cli::prepare_frame(options, i / frames.fps, first.scene));
+        DERMIS_TRY(add(posed));
+    }
+    return pictures;
+}
+
+Frames frames_of(const cli::RenderOptions& options, const py::dict& given) {
+    Frames frames;
+    take(frames.count, given, "frames");
+    take(frames.fps, given, "fps");
+    check(cli::check_number("--fps", frames.fps, cli::kFpsRange));
+    if (given.contains("frames")) check(cli::check_number("--frames", frames.count, cli::kRenderFramesRange));
+    if ((frames.count > 0) != (frames.fps > 0) || (frames.count > 0 && options.scene.pose.clip.empty()))
+        throw Failure({"frames of a clip need clip, frames and fps: clip='talk', frames=96, fps=24"});
+    return frames;
+}
+
+std::vector<RenderedPicture> render(const SceneArguments& scene, const std::string& technique,
+                                    const std::vector<std::string>& settings, const py::dict& given,
+                                    const py::object& progress) {
+    cli::RenderOptions options{.scene = scene_choice(scene), .technique = technique, .settings = settings};
+    int bits = 8;
+    take(bits, given, "bits");
+    take(options.size, given, "size");
+    take(options.view, given, "view");
+    take(options.device, given, "device");
+    take(options.samples, given, "samples");
     if (bits != 8 && bits != 16) throw Failure({"--bits " + std::to_string(bits) + ": 8 or 16"});
-    const cli::RenderOptions options{.scene = scene_choice(scene),
-                                     .technique = technique,
-                                     .size = size,
-                                     .view = view,
-                                     .device = device,
-                                     .settings = settings,
-                                     .samples = samples};
-    return watched(py::none(), [&](Watch&) { return draw(options, bits); });
+    const Frames frames = frames_of(options, given);
+    return watched(progress, [&](Watch& watch) { return draw_all(options, frames, bits, watch); });
 }
 
 // The same file as `dermis render -o PATH` writes.

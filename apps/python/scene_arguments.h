@@ -1,22 +1,30 @@
 #pragma once
-// The scene of a call: its name, and the words of --scene, --camera and --light.
+// The scene of a call: its name, and the words of --scene, --camera, --light, --clip, --time and --morph.
 
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "calls.h"
 #include "scene_choice.h"
 
 namespace dermis::python {
 
+/// Clip, time in s, TARGET=WEIGHT words.
+using PoseArguments = std::tuple<std::string, std::optional<double>, std::vector<std::string>>;
 /// Name, KEY=VALUE words, camera, light: texts as on the command line.
-using SceneArguments = std::tuple<std::string, std::vector<std::string>, std::string, std::string>;
+using SceneArguments =
+    std::tuple<std::string, std::vector<std::string>, std::string, std::string, PoseArguments>;
 
 [[nodiscard]] inline cli::SceneChoice scene_choice(const SceneArguments& arguments) {
+    const auto& [clip, time_s, morphs] = std::get<4>(arguments);
+    if (time_s) check(cli::check_number("--time", *time_s, cli::kTimeRange));
     return {.name = std::get<0>(arguments),
             .camera = std::get<2>(arguments),
             .light = std::get<3>(arguments),
-            .words = std::get<1>(arguments)};
+            .words = std::get<1>(arguments),
+            .pose = {.clip = clip, .time_s = time_s, .morphs = morphs}};
 }
 
 }  // namespace dermis::python

@@ -68,6 +68,30 @@ class Compare(TestCase):
         compared = dermis.compare("unit", "lambert", keys={"mesh.shape": "slab_behind"}, **SAME)
         self.assertEqual(compared.scene.split("/")[-1], "slab_behind")
 
+    def test_frames_of_a_clip_are_the_command_lines(self):
+        with mock.patch.dict(os.environ, DERMIS_CACHE=str(self.folder / "cache")):
+            result = run_program("compare", "bust", "-t", "lambert,wrap", *WHAT, "--clip", "greet", "--time", "0.5",
+                                 "--frames", 2, "--fps", 2, "--json", "-o", self.folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            clip = dermis.compare("bust", "lambert,wrap", clip="greet", time=.5, frames=2, fps=2, **SAME)
+        printed = json.loads(result.stdout)
+        self.assertEqual((clip.rows, clip.clip, clip.times_s), (printed["rows"], "greet", [.5, 1]))
+        self.assertEqual(len(clip.rows), 2)
+        self.assertEqual([frame.rows[1]["rmse"] for frame in clip.frames],
+                         [frame["rows"][1]["rmse"] for frame in printed["frames"]])
+        self.assertFalse(numpy.array_equal(clip.frames[0].reference, clip.frames[1].reference))
+
+    def test_wrong_frames_are_refused_as_by_the_command_line(self):
+        out = ("-o", self.folder / "x")
+        for words, options in ((("--frames", 2), {"frames": 2}), (("--fps", 2), {"fps": 2}),
+                               (("--clip", "greet", "--frames", 0), {"clip": "greet", "frames": 0}),
+                               (("--clip", "gret", "--frames", 2), {"clip": "gret", "frames": 2}),
+                               (("--clip", "greet", "--time", 9, "--frames", 2),
+                                {"clip": "greet", "time": 9, "frames": 2})):
+            self.assert_error(self.program_error("compare", "bust", *words, *out), dermis.compare, "bust", **options)
+        self.assert_error("pictures show one frame; leave frames out and give its time", dermis.compare, "bust",
+                          size=8, clip="greet", frames=2, pictures={"one": (numpy.zeros((8, 8, 3)),) * 2})
+
     def test_errors_are_the_command_lines(self):
         out = ("-o", self.folder / "x")
         for words, call in ((("--samples-per-pixel", 5), lambda: dermis.compare("spheres", samples_per_pixel=5)),

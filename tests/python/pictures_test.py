@@ -55,6 +55,37 @@ class Rendered(TestCase):
         for picture in pictures[1:]:
             numpy.testing.assert_array_equal(picture, pictures[0])
 
+    def test_frames_of_a_clip_are_the_command_lines_to_the_byte(self):
+        result = run_program("render", "bust", "-t", "lambert", "--size", 32, "--clip", "greet", "--time", "0.5",
+                             "--morph", "squintL=1", "--frames", 3, "--fps", 2, "-o", self.folder / "%d.png")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        told = []
+        pictures = dermis.render("bust", "lambert", size=32, clip="greet", time=.5, morph={"squintL": 1}, frames=3,
+                                 fps=2, progress=told.append)
+        self.assertEqual((len(pictures), told[-1]), (3, 1))
+        for i, picture in enumerate(pictures):
+            picture.save(self.folder / "python.png")
+            self.assert_same_bytes(self.folder / f"{i}.png", self.folder / "python.png")
+        self.assertFalse(numpy.array_equal(pictures[0].display, pictures[2].display))
+        first = dermis.render("bust", "lambert", size=32, clip="greet", time=.5, morph="squintL=1")
+        numpy.testing.assert_array_equal(first.display, pictures[0].display)
+        posed = dermis.reference("bust", size=8, integrator="lambert", samples=4, clip="greet", time=1.5)
+        rest = dermis.reference("bust", size=8, integrator="lambert", samples=4)
+        self.assertFalse(numpy.array_equal(posed.radiance, rest.radiance))
+
+    def test_frames_without_a_clip_are_refused(self):
+        need = "frames of a clip need clip, frames and fps: clip='talk', frames=96, fps=24"
+        for wrong in ({"frames": 3}, {"frames": 3, "fps": 24}, {"fps": 24}, {"clip": "greet", "frames": 3}):
+            self.assert_error(need, dermis.render, "bust", **wrong)
+        out = ("-o", self.folder / "%d.png")
+        for words, options in ((("--clip", "greet", "--frames", 0), {"clip": "greet", "frames": 0, "fps": 24}),
+                               (("--clip", "greet", "--fps", -1), {"clip": "greet", "frames": 2, "fps": -1}),
+                               (("--clip", "greet", "--time", -1), {"clip": "greet", "time": -1}),
+                               (("--clip", "gret"), {"clip": "gret"}),
+                               (("--morph", "smil=1"), {"morph": {"smil": 1}}),
+                               (("--morph", "smile"), {"morph": "smile"})):
+            self.assert_error(self.program_error("render", "bust", *words, *out), dermis.render, "bust", **options)
+
     def test_errors_are_the_command_lines(self):
         out = ("-o", self.folder / "x.png")
         for words, call in (

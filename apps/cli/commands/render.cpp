@@ -140,19 +140,14 @@ Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& 
     return results;
 }
 
-// Every frame of a clip is a scene of its own, loaded in its pose. Camera and lights stay as the first frame
-// has them, so that the view does not follow the face.
 Result<std::vector<gpu::FrameResult>> draw_clip(gpu::Device& device, const Prepared& first,
                                                 const Options& options, IndexRange range,
                                                 std::vector<std::string>& warnings) {
     std::vector<gpu::FrameResult> results;
     Progress progress("frames", size_t(range.end - range.begin));
     for (int frame = range.begin; frame < range.end; ++frame) {
-        RenderOptions moment = options.render;
-        moment.scene.pose.time_s = moment.scene.pose.time_s.value_or(0) + frame / options.fps;
-        DERMIS_TRY_ASSIGN(Prepared posed, prepare(moment));
+        DERMIS_TRY_ASSIGN(Prepared posed, prepare_frame(options.render, frame / options.fps, first.scene));
         posed.draw.deep = first.draw.deep;
-        posed.scene.lights = first.scene.lights;
         turn_camera(posed.scene, first.scene.camera, turn_rad(options, frame, options.frames));
         DERMIS_TRY_ASSIGN(
             Renderer renderer,
@@ -254,14 +249,15 @@ void add_render_command(CommandLine& line) {
     command->add_option("--bits", options->file.png_bits, {8, 16}, "bits of a PNG channel: 8 or 16")
         ->capture_default_str();
     command->add_flag("--layers", options->file.layers, "all debug views as layers of the EXR");
-    command->add_option("--frames", options->frames, {1, 100000}, "number of frames")->capture_default_str();
+    command->add_option("--frames", options->frames, kRenderFramesRange, "number of frames")
+        ->capture_default_str();
     command->add_option("--frame-range", options->frame_range,
                         "BEGIN:END: render only this range of the --frames; file numbers are unchanged");
     command
         ->add_option("--turn", options->turn_deg, {-1e6, 1e6},
                      "angle in degrees that the camera turns over all frames")
         ->capture_default_str();
-    command->add_option("--fps", options->fps, {0, 1000},
+    command->add_option("--fps", options->fps, kFpsRange,
                         "frames in a second of the --clip, from --time on; 0: all frames have one pose");
     command->add_flag("--timings", options->timings,
                       "print the time of each pass (median without the first frame)");

@@ -9,8 +9,8 @@ Python's lock, ends with Ctrl-C, and calls `progress` with the share that is don
 
 from dermis._dermis import Error
 from dermis._dermis import version as _version
-from dermis._judge import (Comparison, ciede2000, compare, flip, flip_map, max_abs_error, psnr_db, rel_mse, rmse,
-                           ssim)
+from dermis._judge import (ClipComparison, Comparison, ciede2000, compare, flip, flip_map, max_abs_error, psnr_db, rel_mse,
+                           rmse, ssim)
 from dermis._meshes import (Map, Mesh, bake_curvature, bake_gain, bake_kernel_size, bake_occlusion, bake_stretch,
                             bake_thickness, load_mesh, scene_meshes)
 from dermis._pictures import (Picture, ReferencePicture, parameters, read_image, reference, render, scene_names,
@@ -21,7 +21,7 @@ from dermis._tables import (ClosedForm, Table, bake_closed_form, bake_lut, bake_
 
 __version__ = _version().split()[-1]
 __all__ = [
-    "ClosedForm", "Comparison", "Error", "GaussianFit", "Map", "Mesh", "Picture", "Profile", "ReferencePicture",
+    "ClipComparison", "ClosedForm", "Comparison", "Error", "GaussianFit", "Map", "Mesh", "Picture", "Profile", "ReferencePicture",
     "Table", "bake_closed_form", "bake_curvature", "bake_gain", "bake_kernel_size", "bake_lut", "bake_occlusion",
     "bake_shadow", "bake_stretch", "bake_thickness", "bake_zh", "burley_profile", "ciede2000", "compare", "convert", "flip",
     "flip_map", "gaussian_profile", "load_mesh", "max_abs_error", "parameters", "profile", "profile_names",

@@ -88,11 +88,49 @@ class Comparison:
         return self.names.index(name)
 
 
+class ClipComparison:
+    """Techniques and the reference over the frames of a clip."""
+
+    __slots__ = ("_frames", "_json", "_times_s")
+
+    def __init__(self, handle):
+        if not isinstance(handle, _dermis.ClipComparison):
+            raise TypeError("use compare() with frames")
+        self._frames = [Comparison(one) for one in handle.take_frames()]
+        self._json = json.loads(handle.json)
+        self._times_s = handle.times_s
+
+    @property
+    def frames(self) -> list[Comparison]:
+        """The comparison of each frame, with its pictures."""
+        return self._frames
+
+    @property
+    def times_s(self) -> list[float]:
+        """Of the frames, in the clip, in seconds."""
+        return self._times_s
+
+    @property
+    def clip(self) -> str:
+        """The clip's name."""
+        return self._json["clip"]
+
+    @property
+    def rows(self) -> list[dict]:
+        """A dict for each technique: by each reference ("walk", "surface") mean, mean_error, worst, worst_time_s.
+
+        The same as the rows of `dermis compare --clip NAME --frames N --json`; with fps also motion, the share
+        of what scattering changes from frame to frame.
+        """
+        return self._json["rows"]
+
+
 def compare(scene: Path, techniques: str | Iterable[str] | None=None, *, size: Size | None=None,
             pictures: Mapping[str, tuple[ArrayLike, ArrayLike]] | None=None,
             integrator: str='both', ambient: str='renderer', samples_per_pixel: int | None=None, noise: float=0.2,
             samples: int=2048, timed_frames: int=5, device: str='', camera: Words=None, light: Words=None, keys: Words=None,
-            progress: Callable[[float], object] | None=None) -> Comparison | list[Comparison]:
+            clip: str='', time: float | None=None, morph: Words=None, frames: int | None=None, fps: float=0,
+            progress: Callable[[float], object] | None=None) -> Comparison | list[Comparison] | ClipComparison:
     """Techniques compared with the reference of the same scene, as `dermis compare`.
 
     techniques: "lambert,wrap[wrap=0.4]", a list of such texts, or None for all. pictures: of another renderer by
@@ -102,7 +140,9 @@ def compare(scene: Path, techniques: str | Iterable[str] | None=None, *, size: S
     of the reference a pixel, at most. samples_per_pixel: points of a pixel that both sides take, a square
     number (4 to 36, by the size). timed_frames: how many are timed. integrator: "walk", "surface", or "both":
     rows have both shares, walk_captured and captured, and the pictures are of walk. The references are kept in
-    the cache. Returns a Comparison; of a set of scenes, such as "unit", a list.
+    the cache. clip, time, morph: as in render(). frames: compares so many frames of the clip, evenly over it from
+    time on, or fps of them in a second. Returns a Comparison; of a set of scenes, such as "unit", a list; with
+    frames a ClipComparison.
     """
     pictures = dict(pictures or {})
     if pictures and size is None:
@@ -113,8 +153,11 @@ def compare(scene: Path, techniques: str | Iterable[str] | None=None, *, size: S
     points = None if samples_per_pixel is None else whole(samples_per_pixel, "samples_per_pixel", least, most)
     options = given(size=None if size is None else size_text(size), integrator=integrator, ambient=ambient,
                     samples_per_pixel=points, noise=noise, samples=whole(samples, "samples", least, most),
-                    timed_frames=whole(timed_frames, "timed_frames", least, most), device=device)
-    arguments = scene_arguments(scene, keys, camera, light)
+                    timed_frames=whole(timed_frames, "timed_frames", least, most), device=device, fps=fps,
+                    frames=None if frames is None else whole(frames, "frames", least, most))
+    arguments = scene_arguments(scene, keys, camera, light, clip, time, morph)
+    if frames is not None:
+        return ClipComparison(_dermis.compare_clip(arguments, listed, pictures, options, progress))
     made = [Comparison(one) for one in _dermis.compare(arguments, listed, pictures, options, progress)]
     return made[0] if len(made) == 1 else made
 

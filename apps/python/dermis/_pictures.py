@@ -74,18 +74,27 @@ class Picture:
 
 def render(scene: Path='bust', technique: str='', *, settings: Words=None, size: Size='1024x1024', view: str='final',
            samples: int=1, bits: int=8, camera: Words=None, light: Words=None, keys: Words=None,
-           device: str='') -> Picture:
+           clip: str='', time: float | None=None, morph: Words=None, frames: int | None=None, fps: float=0,
+           device: str='', progress: Callable[[float], object] | None=None) -> Picture | list[Picture]:
     """A scene drawn by a technique, as `dermis render`.
 
     scene: name, scene file or mesh file. technique: its id (the scene's, or lambert). settings: {name: value},
     what --set takes; parameters() lists them. size: pixels, "1024x768", (1024, 768) or 512. view: final,
     diffuse, specular, normal, curvature, ... samples: 1 or 4 a pixel. bits: 8 or 16 of the PNG. camera: {key:
     value} of --camera, such as {"yaw_deg": 30, "distance_mm": 600}. light: the same of --light. keys: {key:
-    value} of --scene, such as {"light.key.intensity": 2}. Each may be the command line's text instead. device:
-    text in the Vulkan device's name.
+    value} of --scene, such as {"light.key.intensity": 2}. clip: an animation of the mesh file, and time in it in
+    s. morph: {target: weight} of --morph, such as {"jawOpen": 0.6}. Mappings may be the command line's text
+    instead. frames: a list of that many pictures of the clip, fps of them in a second, from time on; camera and
+    lights stay. device: text in the Vulkan device's name.
     """
-    return Picture(_dermis.render(scene_arguments(scene, keys, camera, light), technique,
-                                  words(settings, "settings"), size_text(size), view, samples, bits, device))
+    least, most = -2**31, 2**31 - 1
+    options = given(size=size_text(size), view=view, samples=whole(samples, "samples", least, most),
+                    bits=whole(bits, "bits", least, most), device=device, fps=fps,
+                    frames=None if frames is None else whole(frames, "frames", least, most))
+    drawn = _dermis.render(scene_arguments(scene, keys, camera, light, clip, time, morph), technique,
+                           words(settings, "settings"), options, progress)
+    pictures = [Picture(one) for one in drawn]
+    return pictures[0] if frames is None else pictures
 
 
 class ReferencePicture:
@@ -158,6 +167,7 @@ def reference(scene: Path, *, size: Size='512x512', integrator: str='surface', s
               width_scale: float=1.0, normalisation: str='area', cavities: str='flesh', filter: str='box',
               shadows: str='scene', ambient: str='traced', specular: str='ggx', penumbra_mm: float=2.0,
               camera: Words=None, light: Words=None, keys: Words=None,
+              clip: str='', time: float | None=None, morph: Words=None,
               progress: Callable[[float], object] | None=None) -> ReferencePicture:
     """The reference of a scene, as `dermis reference`. The same seed gives the same picture.
 
@@ -165,7 +175,7 @@ def reference(scene: Path, *, size: Size='512x512', integrator: str='surface', s
     noise: stop at this relative error, such as 0.01. probes: for each sample, even; 6 at least, of walk 2.
     profile: a name instead of the scene's. medium: for walk, {"sigma_s": (r, g, b), "sigma_a": (r, g, b),
     "g": 0, "eta": 1.4} in 1/mm. width_scale: factor on the lengths of profile or medium, 0 is Lambert.
-    penumbra_mm: width of the key light's shadow edge. camera, light, keys: as in render().
+    penumbra_mm: width of the key light's shadow edge. camera, light, keys, clip, time, morph: as in render().
     """
     options = given(size=size_text(size), integrator=integrator, noise=noise, profile=profile,
                     width_scale=width_scale, normalisation=normalisation, cavities=cavities, filter=filter,
@@ -173,7 +183,8 @@ def reference(scene: Path, *, size: Size='512x512', integrator: str='surface', s
                     seed=whole(seed, "seed", 0, 2**32 - 1), probes=whole(probes, "probes", -2**31, 2**31 - 1),
                     samples=None if samples is None else whole(samples, "samples", -2**31, 2**31 - 1),
                     medium=None if medium is None else " ".join(words(medium, "medium")))
-    return ReferencePicture(_dermis.reference(scene_arguments(scene, keys, camera, light), options, progress))
+    arguments = scene_arguments(scene, keys, camera, light, clip, time, morph)
+    return ReferencePicture(_dermis.reference(arguments, options, progress))
 
 
 def parameters(technique: str) -> list[dict]:

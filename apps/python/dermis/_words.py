@@ -45,10 +45,10 @@ def words(values, option):
     return texts
 
 
-def scene_arguments(scene, keys, camera, light):
-    """What the command line takes as SCENE, --scene, --camera and --light."""
+def scene_arguments(scene, keys, camera, light, clip, time, morph):
+    """What the command line takes as SCENE, --scene, --camera, --light, --clip, --time and --morph."""
     return (text_path(scene), words(keys, "keys"), " ".join(words(camera, "camera")),
-            " ".join(words(light, "light")))
+            " ".join(words(light, "light")), (clip, time, words(morph, "morph")))
 
 
 def size_text(size):
