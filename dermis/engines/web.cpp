@@ -11,6 +11,7 @@
 #include "dermis/engines/web/parts.h"
 #include "dermis/optics/fresnel.h"
 #include "dermis/render/renderer.h"
+#include "dermis/scene/rig_scene.h"
 #include "shaders/include/constants.h"
 
 namespace dermis::inline engines {
@@ -19,8 +20,8 @@ namespace {
 using nlohmann::json;
 using web::to_json;
 
-constexpr std::string_view kPageFolder = "engines/web/";
-constexpr size_t kMaxTones = 16, kMaxLights = 4;
+constexpr std::string_view kPageFolder = "engines/web/", kMotionFolder = "engines/common/";
+constexpr size_t kMaxTones = 16, kMaxLights = 4, kMaxMotionBytes = 2'000'000;
 
 Result<std::string> text_of(std::span<const shading::Source> texts, std::string_view path) {
     const auto found = std::ranges::find(texts, path, &shading::Source::path);
@@ -39,8 +40,9 @@ std::string without_includes(std::string_view text) {
 
 Result<void> add_texts(const WebInput& input, std::vector<WebFile>& files) {
     for (const shading::Source& text : input.texts)
-        if (text.path.starts_with(kPageFolder))
-            files.push_back({text.path.substr(kPageFolder.size()), to_bytes(text.text)});
+        for (const std::string_view folder : {kPageFolder, kMotionFolder})
+            if (text.path.starts_with(folder))
+                files.push_back({text.path.substr(folder.size()), to_bytes(text.text)});
     if (files.empty()) return Error{"the page's own files are not among the texts"};
     DERMIS_TRY_ASSIGN(const std::string license, text_of(input.texts, "LICENSE"));
     files.push_back({"LICENSE.txt", to_bytes(license)});
@@ -128,11 +130,48 @@ json material_json(const Material& material, MaterialClass material_class) {
             {"normal_scale", to_json(material.normal_scale)}};
 }
 
+// scene.bin and motion.bin.
+struct Binaries {
+    web::Binary scene, motion;
+};
+
+// Nothing for an object that does not move.
+Result<json> motion_json(const WebInput& input, const SceneObject& object,
+                         std::span<const uint32_t> number_on_page, Binaries& binaries, WebPage& page) {
+    if (object.motion.empty()) return json();
+    SceneObject moving = object;
+    moving.mesh = web::with_tangents(object.mesh);
+    DERMIS_TRY_ASSIGN(const std::optional<Rig> rig, rig_of(moving, input.scene.motion.pose()));
+    if (rig) return web::add_motion(binaries.motion, *rig, number_on_page);
+    page.warnings.push_back("'" + object.name + "' does not move on the page: it is subdivided or displaced");
+    return json();
+}
+
+// Without clips the page needs nothing of what moves; too large a motion is left out.
+void finish_motion(json& objects, Binaries& binaries, WebPage& page) {
+    const bool plays = std::ranges::any_of(objects, [](const json& object) {
+        return object.contains("motion") && !object["motion"]["animations"].empty();
+    });
+    const bool fits = binaries.motion.size() <= kMaxMotionBytes;
+    if (plays && !fits)
+        page.warnings.push_back(fmt::format(
+            "the page shows the scene's pose alone: its clips would take {:.1f} MB, and the limit is {:.1f}",
+            double(binaries.motion.size()) / 1e6, double(kMaxMotionBytes) / 1e6));
+    if (plays && fits) {
+        page.files.push_back({"motion.bin", binaries.motion.finish()});
+        return;
+    }
+    for (json& object : objects) object.erase("motion");
+}
+
 // Adds mesh and maps; parts that the page cannot draw are left out of its list.
-Result<json> object_json(const WebInput& input, size_t index, web::Binary& binary, WebPage& page) {
+Result<json> object_json(const WebInput& input, size_t index, Binaries& binaries, WebPage& page) {
     const SceneObject& object = input.scene.objects[index];
-    Result<json> made = web::add_mesh(binary, object.mesh, input.triangle_count);
-    if (!made) return Error{object.name + ": " + made.error().message};
+    Result<web::MeshOnPage> mesh = web::add_mesh(binaries.scene, object.mesh, input.triangle_count);
+    if (!mesh) return Error{object.name + ": " + mesh.error().message};
+    json made = std::move(mesh->json);
+    DERMIS_TRY_ASSIGN(json motion, motion_json(input, object, mesh->number, binaries, page));
+    if (!motion.is_null()) made["motion"] = std::move(motion);
     json parts = json::array();
     std::vector<json> materials(object.mesh.materials.size());
     for (size_t i = 0; i < object.mesh.submeshes.size(); ++i) {
@@ -152,23 +191,25 @@ Result<json> object_json(const WebInput& input, size_t index, web::Binary& binar
                               web::add_maps(page.files, material, object.mesh, prefix, input.map_side));
             materials[number].update(maps);
         }
-        json part = (*made)["parts"][i];
+        json part = made["parts"][i];
         part["material"] = materials[number];
         parts.push_back(std::move(part));
     }
-    (*made)["parts"] = std::move(parts);
+    made["parts"] = std::move(parts);
     return made;
 }
 
-Result<json> scene_json(const WebInput& input, web::Binary& binary, WebPage& page) {
+Result<json> scene_json(const WebInput& input, Binaries& binaries, WebPage& page) {
     const Scene& scene = input.scene;
-    DERMIS_TRY_ASSIGN(json tables, web::add_tables(binary, input.tones, input.table_max_curvature_per_mm));
-    DERMIS_TRY_ASSIGN(json environment, web::add_environment(binary, scene.environment));
+    DERMIS_TRY_ASSIGN(json tables,
+                      web::add_tables(binaries.scene, input.tones, input.table_max_curvature_per_mm));
+    DERMIS_TRY_ASSIGN(json environment, web::add_environment(binaries.scene, scene.environment));
     json objects = json::array();
     for (size_t i = 0; i < scene.objects.size(); ++i) {
-        DERMIS_TRY_ASSIGN(json object, object_json(input, i, binary, page));
+        DERMIS_TRY_ASSIGN(json object, object_json(input, i, binaries, page));
         objects.push_back(std::move(object));
     }
+    finish_motion(objects, binaries, page);
     return json{
         {"name", scene.name},
         {"credit", scene.credit},
@@ -205,11 +246,11 @@ Result<WebPage> make_web_page(const WebInput& input) {
         return Error{fmt::format("a page has 1 to {} skins", kMaxTones)};
     WebPage page;
     DERMIS_TRY(add_texts(input, page.files));
-    web::Binary binary;
-    DERMIS_TRY_ASSIGN(const json scene, scene_json(input, binary, page));
+    Binaries binaries;
+    DERMIS_TRY_ASSIGN(const json scene, scene_json(input, binaries, page));
     web::warn_of_materials(input.scene, "page", page.warnings);
     page.files.push_back({"scene.json", to_bytes(scene.dump(1) + "\n")});
-    page.files.push_back({"scene.bin", binary.finish()});
+    page.files.push_back({"scene.bin", binaries.scene.finish()});
     std::ranges::sort(page.files, {}, &WebFile::path);
     return page;
 }

@@ -6,9 +6,9 @@
 //
 // The page itself is engines/web: HTML, modules and shaders, as they are. Made here are skin.essl (the
 // functions of shaders/include/skin), shared.glsl (tone map, constants), scene.json (camera, lights,
-// materials, tones), scene.bin (vertices, tables, environment) and the maps as JPEG. It shows light of
-// distant lights; the key light's shadow is drawn by the page, transmission and other lights' shadows are
-// not.
+// materials, tones), scene.bin (vertices, tables, environment), motion.bin (targets, skins and clips of
+// objects that move) and the maps as JPEG. It shows light of distant lights; the key light's shadow is drawn
+// by the page, transmission and other lights' shadows are not.
 
 #include <array>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // Clips of a head on a page: their list, play and pause, and the time in the clip.
 
-const kStyle = "position: fixed; left: 1em; bottom: 1em; display: flex; gap: .6em; align-items: center; color: #fff; font: 14px sans-serif";
+const kBarStyle = "position: fixed; left: 1em; bottom: 1em; display: flex; gap: .6em; align-items: center; color: #fff; font: 14px sans-serif";
 
 function element(parent, name, properties) {
   const made = Object.assign(document.createElement(name), properties);
@@ -8,12 +8,12 @@ function element(parent, name, properties) {
   return made;
 }
 
-// motion: of loadSkinHead(). draw() shows the head once more. ?clip=NAME&time=SECONDS opens a page there, at rest; a head without clips
-// gets no controls.
-export function addSkinControls(motion, draw) {
+// motion: of loadSkinHead(). draw() shows the head once more. The controls are added to `place`; without one they are a bar at the bottom
+// of the page. ?clip=NAME&time=SECONDS opens a page there, at rest; a head without clips gets no controls.
+export function addSkinControls(motion, draw, place = null) {
   if (!motion.clips.length) return;
-  const query = new URLSearchParams(location.search), bar = element(document.body, "div", { style: kStyle });
-  const list = element(bar, "select", { title: "clip" }), button = element(bar, "button", { textContent: "Play" });
+  const query = new URLSearchParams(location.search), bar = place ?? element(document.body, "div", { style: kBarStyle });
+  const list = element(bar, "select", { title: "clip" }), button = element(bar, "button", { type: "button", textContent: "Play" });
   const slider = element(bar, "input", { type: "range", min: 0, step: 0.001, title: "time", style: "width: 16em" });
   const seconds = element(bar, "output", {});
   element(list, "option", { value: "", textContent: "no clip" });

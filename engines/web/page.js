@@ -1,6 +1,7 @@
 // The controls, and what the pointer does to the picture.
 
 import { createRenderer } from "./renderer.js";
+import { addSkinControls } from "./SkinHeadControls.js";
 import { add, direction, length, scale, subtract, yawPitch } from "./matrix.js";
 
 const element = id => document.getElementById(id);
@@ -72,6 +73,10 @@ function start(renderer) {
 
   document.title = `${scene.name}, skin by Dermis`;
   element("credit").textContent = scene.credit;
+  if (renderer.motion) {
+    element("clips").hidden = false;
+    addSkinControls(renderer.motion, redraw, element("clips"));
+  }
   if (document.body.className === "bare") wipe.value = 0;
   message.hidden = true;
   showView();

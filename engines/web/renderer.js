@@ -2,6 +2,7 @@
 
 import * as gpu from "./gpu.js";
 import * as load from "./load.js";
+import { createMotion } from "./motion.js";
 import { add, direction, length, lookAlong, multiply, normalize, orthographic, perspective, scale, subtract } from "./matrix.js";
 
 const kShadowMapSide = 2048, kNoMap = [255, 255, 255, 255];
@@ -33,12 +34,14 @@ async function loadMaps(gl, objects) {
 export async function createRenderer(canvas) {
   const gl = gpu.createContext(canvas);
   const [scene, buffer, programs] = await Promise.all([load.json("scene.json"), load.bytes("scene.bin"), loadPrograms(gl)]);
-  const maps = await loadMaps(gl, scene.objects);
-  const { tables, environment } = scene;
-  return new Renderer(canvas, gl, scene, programs, {
+  const moves = scene.objects.some(({ motion }) => motion);
+  const [maps, motionBuffer] = await Promise.all([loadMaps(gl, scene.objects), moves ? load.bytes("motion.bin") : null]);
+  const { tables, environment } = scene, arrays = scene.objects.map(object => gpu.vertexArray(gl, buffer, object));
+  const motion = moves ? createMotion(gl, scene, motionBuffer, arrays) : null;
+  return new Renderer(canvas, gl, scene, programs, motion, {
     maps,
     noMap: gpu.texelTexture(gl, kNoMap),
-    arrays: scene.objects.map(object => gpu.vertexArray(gl, buffer, object)),
+    arrays,
     diffuse: gpu.arrayTexture(gl, buffer, tables.diffuse, scene.tones.length, false),
     rows: gpu.arrayTexture(gl, buffer, tables.rows, scene.tones.length, true),
     cube: gpu.cubeTexture(gl, buffer, environment.cube),
@@ -48,9 +51,12 @@ export async function createRenderer(canvas) {
 }
 
 class Renderer {
-  constructor(canvas, gl, scene, programs, resources) {
-    Object.assign(this, { canvas, gl, scene, programs, resources });
+  // motion: of createMotion(), null where nothing moves.
+  constructor(canvas, gl, scene, programs, motion, resources) {
+    Object.assign(this, { canvas, gl, scene, programs, motion, resources });
   }
+
+  get radius_mm() { return this.motion?.radius_mm ?? this.scene.bounds.radius_mm; }
 
   // state: tone, wipe (0 to 1), showCurvature, yaw and pitch of the key light, eye and target in mm.
   draw(state) {
@@ -67,7 +73,7 @@ class Renderer {
 
   drawShadowMap(toKey) {
     const { gl, scene: { bounds }, resources: { shadowMap } } = this;
-    const r = bounds.radius_mm;
+    const r = this.radius_mm;
     const view = lookAlong(add(bounds.center_mm, scale(toKey, 2 * r)), scale(toKey, -1));
     const matrix = multiply(orthographic(r, r, 3 * r), view);
     const { program, at } = this.programs.shadow;
@@ -125,12 +131,13 @@ class Renderer {
   setBox(at, object) {
     this.gl.uniform3fv(at.box_low_mm, object.position_mm.low);
     this.gl.uniform3fv(at.box_size_mm, object.position_mm.size);
+    this.gl.uniform1i(at.moves, Boolean(object.motion));
   }
 
   // A narrow picture sees as much of the head across as a square one.
   setCamera(at, { eye, target, wipe, showCurvature }) {
     const { gl, canvas, scene } = this;
-    const aspect = canvas.width / canvas.height, r = scene.bounds.radius_mm;
+    const aspect = canvas.width / canvas.height, r = this.radius_mm;
     const fov = 2 * Math.atan(Math.tan(scene.camera.vertical_fov_rad / 2) / Math.min(aspect, 1));
     const distance = length(subtract(eye, scene.bounds.center_mm));
     const far = (distance + r) * 1.01, near = Math.max((distance - r) * 0.99, far * 1e-3);
@@ -152,7 +159,7 @@ class Renderer {
       gl.uniform1iv(at.casts_shadow, lights.map(light => Number(light.key)));
     }
     gl.uniformMatrix4fv(at.light_view_projection, false, lightMatrix);
-    gl.uniform1f(at.shadow_texel_mm, 2 * scene.bounds.radius_mm / this.resources.shadowMap.side);
+    gl.uniform1f(at.shadow_texel_mm, 2 * this.radius_mm / this.resources.shadowMap.side);
     gl.uniform1f(at.penumbra_mm, scene.penumbra_mm);
     gl.uniform1f(at.shadow_width_mm, scene.shadow_width_mm);
     this.bind(at.shadow_map, 0, gl.TEXTURE_2D, this.resources.shadowMap.texture);

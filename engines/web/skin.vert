@@ -5,10 +5,14 @@ layout(location = 2) in vec4 tangent_in;
 layout(location = 3) in vec2 uv_in;         // over its range
 layout(location = 4) in vec4 curvature_in;  // along the tangent, along the bitangent, mixed; in 1/mm
 layout(location = 5) in vec4 occlusion_in;  // three blurs
+layout(location = 6) in vec3 posed_mm_in;   // these of an object that moves
+layout(location = 7) in vec3 posed_normal_in;
+layout(location = 8) in vec3 posed_tangent_in;
 
 uniform mat4 view_projection;
 uniform vec3 box_low_mm, box_size_mm;
 uniform vec2 uv_low, uv_size;
+uniform bool moves;
 
 out vec3 p_mm;
 out vec3 normal;
@@ -18,9 +22,10 @@ out vec3 curvature_diagonal_per_mm, curvature_mixed_per_mm;  // the curvature te
 out vec4 occlusion;                                          // sharp, and three blurs
 
 void main() {
-    p_mm = box_low_mm + position_in.xyz * box_size_mm;
-    normal = normalize(normal_in.xyz);
-    vec3 t = normalize(tangent_in.xyz - normal * dot(normal, tangent_in.xyz)), b = cross(normal, t);
+    p_mm = moves ? posed_mm_in : box_low_mm + position_in.xyz * box_size_mm;
+    normal = normalize(moves ? posed_normal_in : normal_in.xyz);
+    vec3 along = moves ? posed_tangent_in : tangent_in.xyz;
+    vec3 t = normalize(along - normal * dot(normal, along)), b = cross(normal, t);  // the curvature turns with them
     tangent = vec4(t, normal_in.w < 0.0 ? -1.0 : 1.0);
     uv = uv_low + uv_in * uv_size;
     vec3 k = curvature_in.xyz;

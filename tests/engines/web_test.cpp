@@ -12,6 +12,7 @@
 #include "dermis/base/file.h"
 #include "dermis/engines/web/parts.h"
 #include "dermis/image/io.h"
+#include "support/moving_sheet.h"
 #include "support/sphere_pictures.h"
 #include "support/temporary_directory.h"
 #include "test_paths.h"
@@ -188,9 +189,11 @@ TEST_F(WebPageFolder, unknown_scenes_and_profiles_leave_nothing_behind) {
 }
 
 TEST_F(WebPageFolder, of_the_bust_is_below_two_megabytes) {
-    size_t bytes = 0;
-    for (const auto& [path, content] : files_of(write_page("bust"))) bytes += content.size();
+    size_t bytes = 0, motion_bytes = 0;
+    for (const auto& [path, content] : files_of(write_page("bust")))
+        (path == "motion.bin" ? motion_bytes : bytes) += content.size();
     EXPECT_LT(bytes, 2'000'000u);
+    EXPECT_LT(motion_bytes, 400'000u);
     EXPECT_GT(bytes, 1'000'000u);
 }
 
@@ -232,4 +235,116 @@ TEST_F(WebPageFolder, in_a_browser_a_sphere_of_8_mm_is_the_renderers_own) {
     const SphereDifference difference = sphere_difference(a, b);
     EXPECT_GT(difference.pixels, 30'000);
     EXPECT_LE(difference.largest_level, kBound);
+}
+
+// A light and a camera of its own, so that no pose changes the view.
+class MovingPage : public WebPageFolder {
+  protected:
+    fs::path write_scene(const std::string& mesh, const std::string& camera) {
+        const fs::path file = directory_.path / "moving.toml";
+        EXPECT_TRUE(
+            write_text_file(file, "[[mesh]]\nfile = \"" + mesh +
+                                      "\"\n[skin]\nprofile = \"openpbr_skin_3\"\nroughness = 1\n[[light]]\n"
+                                      "yaw_deg = 40\npitch_deg = 30\n[camera]\n" +
+                                      camera + "\n"));
+        return file;
+    }
+    Image ours(const fs::path& scene, const std::string& pose) {
+        const fs::path path = directory_.path / "ours.png";
+        const ProgramResult drawn = run_dermis(
+            "render " + scene.string() + " " + pose +
+                " --technique preintegrated --set specular=two_lobe_ggx --set transmission=none --set "
+                "normals=blended --size 256x256 -o " +
+                path.string(),
+            directory_.path);
+        EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+        return read_image(path, ImageUse::color)->image;
+    }
+    Image theirs(const fs::path& folder, const std::string& query) {
+        const fs::path path = directory_.path / "theirs.png";
+        const ProgramResult shot =
+            run_script("shot " + folder.string() + " " + path.string() + " 256 '" + query + "'");
+        EXPECT_EQ(shot.exit_code, 0) << shot.err;
+        return read_image(path, ImageUse::color)->image;
+    }
+    // The part of the change from `rest` to `posed` that another renderer does not draw: 0 the same, 1
+    // nothing moves.
+    static double missed(const Image& rest, const Image& posed, const Image& other_rest,
+                         const Image& other_posed) {
+        double error = 0, change = 0;
+        for (int y = 0; y < rest.height; ++y)
+            for (int x = 0; x < rest.width; ++x)
+                for (int c = 0; c < 3; ++c) {
+                    const float ours = posed.at(x, y, c) - rest.at(x, y, c);
+                    error += std::abs(other_posed.at(x, y, c) - other_rest.at(x, y, c) - ours);
+                    change += std::abs(ours);
+                }
+        return error / change;
+    }
+};
+
+TEST_F(MovingPage, in_a_browser_a_pose_of_a_clip_is_the_renderers) {
+    if (!has_browser()) GTEST_SKIP() << "no chromium or no node here";
+    ASSERT_TRUE(write_text_file(directory_.path / "sheet.gltf", test::moving_sheet()));
+    for (const auto& [clip, mesh, camera] :
+         {std::tuple{"nod", "sheet.gltf", "eye_mm = [60, 40, 500]\ntarget_mm = [0, 0, 20]"},
+          {"greet", "builtin:bust", "eye_mm = [150, 20, 500]\ntarget_mm = [0, -20, 40]"}}) {
+        const fs::path scene = write_scene(mesh, camera), folder = write_page(scene.string());
+        const Image rest = theirs(folder, ""),
+                    posed = theirs(folder, std::string("clip=") + clip + "&time=1.7");
+        ASSERT_EQ(posed.width, 256);
+        const Image our_rest = ours(scene, ""),
+                    our_posed = ours(scene, std::string("--clip ") + clip + " --time 1.7");
+        // Of the bust the page has fewer triangles and smaller maps.
+        EXPECT_LT(missed(our_rest, our_posed, rest, posed), mesh == std::string("builtin:bust") ? 0.45 : 0.2)
+            << clip;
+        EXPECT_GT(missed(our_rest, our_posed, rest, rest), 0.9) << clip << ": a page that stays";
+    }
+}
+
+TEST_F(MovingPage, in_a_browser_plays_and_pauses_its_clips) {
+    if (!has_browser()) GTEST_SKIP() << "no chromium or no node here";
+    const fs::path folder = write_page("bust");
+    const ProgramResult good = run_script("clips " + folder.string());
+    EXPECT_EQ(good.exit_code, 0) << good.err;
+    // The check can fail: a page that forgets the pose.
+    std::string motion = read_text_file(folder / "motion.js").value();
+    const std::string pose = "one.pose(name, time_s)";
+    ASSERT_NE(motion.find(pose), std::string::npos);
+    motion.replace(motion.find(pose), pose.size(), "one.pose(name, 0)");
+    ASSERT_TRUE(write_text_file(folder / "motion.js", motion));
+    EXPECT_EQ(run_script("clips " + folder.string()).exit_code, 1);
+}
+
+TEST_F(MovingPage, has_motion_only_of_what_moves) {
+    const fs::path folder = write_page("spheres");
+    EXPECT_FALSE(fs::exists(folder / "motion.bin"));
+    for (const auto& object : scene_of(folder)["objects"]) EXPECT_FALSE(object.contains("motion"));
+    fs::remove_all(folder);
+    const nlohmann::json motion = scene_of(write_page("bust"))["objects"][0]["motion"];
+    EXPECT_EQ(motion["animations"][0]["name"], "greet");
+    EXPECT_TRUE(fs::exists(folder / "motion.bin"));
+}
+
+// The sheet with so many copies of its target that two megabytes do not hold them.
+TEST_F(MovingPage, keeps_the_scenes_pose_where_the_motion_is_too_large) {
+    constexpr int kTargets = 2400;
+    nlohmann::json sheet = nlohmann::json::parse(test::moving_sheet());
+    nlohmann::json& mesh = sheet["meshes"][0];
+    mesh["primitives"][0]["targets"] =
+        nlohmann::json(kTargets, nlohmann::json(mesh["primitives"][0]["targets"][0]));
+    mesh["weights"] = nlohmann::json(kTargets, nlohmann::json(0.001));
+    mesh.erase("extras");
+    sheet["animations"][0]["channels"].erase(0);
+    ASSERT_TRUE(write_text_file(directory_.path / "large.gltf", sheet.dump()));
+    const fs::path folder = directory_.path / "page";
+    const ProgramResult made =
+        run_dermis("export --web " + (directory_.path / "large.gltf").string() + " -o " + folder.string(),
+                   directory_.path);
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_NE(made.err.find("the page shows the scene's pose alone: its clips would take "),
+              std::string::npos)
+        << made.err;
+    EXPECT_FALSE(fs::exists(folder / "motion.bin"));
+    EXPECT_FALSE(scene_of(folder)["objects"][0].contains("motion"));
 }

@@ -1,13 +1,15 @@
 // Opens the page of `dermis export --web` in headless Chromium.
 //
 //     node web_page.mjs CHROMIUM drive FOLDER              moves every control and checks that the pixels follow
-//     node web_page.mjs CHROMIUM shot FOLDER PICTURE SIDE  the picture alone, without controls, as PNG
+//     node web_page.mjs CHROMIUM clips FOLDER              plays the first clip, pauses it, moves its time
+//     node web_page.mjs CHROMIUM shot FOLDER PICTURE SIDE [QUERY]
+//                                                          the picture alone, without controls, as PNG; QUERY: clip=NAME&time=SECONDS
 //     node web_page.mjs CHROMIUM load FOLDER               prints when the first picture was there, at 1280 x 800
 
 import { writeFileSync } from "node:fs";
 import { openBrowser, serve, until } from "./browser.mjs";
 
-const [chromium, mode, folder, output, side] = process.argv.slice(2);
+const [chromium, mode, folder, output, side, query = ""] = process.argv.slice(2);
 const kDrawn = "document.body.dataset.state === 'drawn'", kEnded = "['drawn', 'error'].includes(document.body?.dataset.state)";
 
 const open = async (server, size, query = "", prepare = "") => {
@@ -104,6 +106,37 @@ async function drive(server) {
   }
 }
 
+// The clip's list, play and pause, and the time.
+async function playClips(server) {
+  const page = await open(server, { width: 900, height: 500 });
+  const time = () => page.evaluate("Number(document.querySelector('#clips input').value)");
+  try {
+    check(await page.evaluate(kDrawn), await page.evaluate("document.getElementById('message').textContent"));
+    await slide(page, "wipe", 0);
+    const rest = await picture(page);
+    await change(page, `{ const list = document.querySelector("#clips select"); list.selectedIndex = 1; list.dispatchEvent(new Event("change")); }`);
+    await until(page, "Number(document.querySelector('#clips input').value) > 0.1", "the clip's time going on");
+    await press(page, "#clips button");
+    const paused = await time();
+    await new Promise(resolve => setTimeout(resolve, 300));
+    check(await time() === paused, "the clip goes on after pause");
+    const end = await page.evaluate("Number(document.querySelector('#clips input').max)");
+    const show = time_s => change(page, `{ const c = document.querySelector("#clips input"); c.value = ${time_s}; c.dispatchEvent(new Event("input")); }`);
+    await show(0.8 * end);
+    const moved = await picture(page);
+    check(await differing(page, moved, rest) > 0.005, "the picture does not follow the clip");
+    await show(0.4 * end);
+    check(await differing(page, await picture(page), moved) > 0.005, "the picture does not follow the clip's time");
+    await show(0.8 * end);
+    check(await differing(page, await picture(page), moved) === 0, "the same time is another picture");
+    await change(page, `{ const list = document.querySelector("#clips select"); list.selectedIndex = 0; list.dispatchEvent(new Event("change")); }`);
+    check(await differing(page, await picture(page), rest) === 0, "the pose of the export does not come back");
+    check(page.problems.length === 0, "the console says: " + page.problems[0]);
+  } finally {
+    await page.close();
+  }
+}
+
 // Controls that a thumb can use, and nothing wider than the screen.
 async function checkPhone(server) {
   const page = await open(server, { width: 390, height: 844, phone: true });
@@ -139,7 +172,7 @@ async function checkMessages(server) {
 }
 
 async function shoot(server) {
-  const page = await open(server, { width: Number(side), height: Number(side) }, "?controls=0");
+  const page = await open(server, { width: Number(side), height: Number(side) }, `?controls=0&${query}`);
   try {
     check(await page.evaluate(kDrawn), await page.evaluate("document.getElementById('message').textContent"));
     writeFileSync(output, Buffer.from((await page.call("Page.captureScreenshot", { format: "png" })).data, "base64"));
@@ -165,6 +198,7 @@ const server = await serve(folder);
 try {
   if (mode === "shot") await shoot(server);
   else if (mode === "load") await load(server);
+  else if (mode === "clips") await playClips(server);
   else {
     await drive(server);
     await checkPhone(server);

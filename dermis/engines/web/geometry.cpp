@@ -94,7 +94,16 @@ nlohmann::json ranges(std::span<const Range> all) {
 
 }  // namespace
 
-Result<nlohmann::json> add_mesh(Binary& binary, const Mesh& mesh, size_t triangle_count) {
+Mesh with_tangents(Mesh mesh) {
+    if (mesh.tangents.empty())
+        for (const Vec3& n : mesh.normals) {
+            const Vec3 t = across(n);
+            mesh.tangents.push_back({t.x, t.y, t.z, 1});
+        }
+    return mesh;
+}
+
+Result<MeshOnPage> add_mesh(Binary& binary, const Mesh& mesh, size_t triangle_count) {
     DERMIS_TRY_ASSIGN(std::vector<Vec3> blurred, blurred_occlusions(mesh));
     const Packer packer = {.mesh = mesh,
                            .blurred_occlusions = std::move(blurred),
@@ -105,9 +114,9 @@ Result<nlohmann::json> add_mesh(Binary& binary, const Mesh& mesh, size_t triangl
                                         range_of(mesh.uvs, [](Vec2 uv) { return uv.y; })}};
     const SimplifiedTriangles triangles = simplify(mesh, triangle_count);
     // Vertices in the order in which the triangles use them, which the GPU's cache likes too.
-    std::vector<uint32_t> number(mesh.positions_mm.size(), ~0u), used;
+    std::vector<uint32_t> number(mesh.positions_mm.size(), kNotOnPage), used;
     for (const uint32_t v : triangles.indices)
-        if (number[v] == ~0u) {
+        if (number[v] == kNotOnPage) {
             number[v] = uint32_t(used.size());
             used.push_back(v);
         }
@@ -128,7 +137,7 @@ Result<nlohmann::json> add_mesh(Binary& binary, const Mesh& mesh, size_t triangl
     made["parts"] = nlohmann::json::array();
     for (const Submesh& submesh : triangles.submeshes)
         made["parts"].push_back({{"first", submesh.first_index}, {"count", submesh.index_count}});
-    return made;
+    return MeshOnPage{std::move(made), std::move(number)};
 }
 
 }  // namespace dermis::inline engines::web

@@ -16,6 +16,7 @@
 #include "dermis/engines/web.h"
 #include "dermis/image/image.h"
 #include "dermis/mesh/mesh.h"
+#include "dermis/mesh/rig.h"
 
 namespace dermis::inline engines::web {
 
@@ -33,6 +34,7 @@ class Binary {
         bytes_.resize(at + sizeof(T));
         std::memcpy(bytes_.data() + at, &value, sizeof(T));
     }
+    [[nodiscard]] size_t size() const { return bytes_.size(); }
     [[nodiscard]] std::vector<std::byte> finish() { return std::move(bytes_); }
 
   private:
@@ -56,10 +58,25 @@ class Binary {
 [[nodiscard]] nlohmann::json to_json(float value);
 [[nodiscard]] nlohmann::json to_json(Vec3 v);
 
+inline constexpr uint32_t kNotOnPage = ~0u;
+
+struct MeshOnPage {
+    nlohmann::json json;
+    std::vector<uint32_t> number;  ///< on the page, of each vertex of the mesh; kNotOnPage: left out
+};
+
 /// Vertices and indices into `binary`, in the layout of engines/web/gpu.js; where they are, and the ranges of
 /// what is stored as whole numbers, as JSON. `mesh` has curvature and occlusion. "parts" is the caller's: one
 /// a submesh, with "first" and "count".
-[[nodiscard]] Result<nlohmann::json> add_mesh(Binary& binary, const Mesh& mesh, size_t triangle_count);
+[[nodiscard]] Result<MeshOnPage> add_mesh(Binary& binary, const Mesh& mesh, size_t triangle_count);
+
+/// A copy with tangents, where it has none as the page makes them.
+[[nodiscard]] Mesh with_tangents(Mesh mesh);
+
+/// What moves a mesh, into `binary` and as JSON: motion.cpp. `rig` is of the mesh with_tangents();
+/// `number_on_page` as MeshOnPage has it.
+[[nodiscard]] nlohmann::json add_motion(Binary& binary, const Rig& rig,
+                                        std::span<const uint32_t> number_on_page);
 
 /// The image behind a texture of shaders/include/surface.glsl, at most `side` texels wide and high; empty:
 /// none.
