@@ -11,7 +11,6 @@
 #include "compare_text.h"
 #include "comparison_progress.h"
 #include "dermis/base/file.h"
-#include "dermis/judge/clip_motion.h"
 #include "dermis/judge/report.h"
 #include "stop_on_signals.h"
 
@@ -22,8 +21,7 @@ namespace fs = std::filesystem;
 
 // What is kept of all frames.
 struct ClipResults {
-    std::vector<ClipFrame> frames;
-    std::optional<ClipEffects> before;  // effects of the frame that was compared last
+    ComparedFrames frames;
     std::vector<std::string> links;
     std::string regions, credit;
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
@@ -44,12 +42,12 @@ struct ClipWork {
     fs::path directory;
 };
 
-std::string frame_folder(size_t frame) {
+std::string frame_folder(int frame) {
     return fmt::format("frame_{:02}", frame);
 }
 
-Result<void> compare_frame(gpu::Device& device, const ClipWork& work, const SubjectCase& one, double time_s,
-                           const ComparisonTurn& turn, ClipResults& results) {
+Result<void> compare_frame(gpu::Device& device, const ClipWork& work, int frame, const SubjectCase& one,
+                           double time_s, const ComparisonTurn& turn, ClipResults& results) {
     results.print_new(one.scene.warnings);
     ComparisonProgress progress(turn);
     Result<Comparison> made = compare_techniques(device, built_in_catalog(), one.scene, work.contestants,
@@ -57,29 +55,26 @@ Result<void> compare_frame(gpu::Device& device, const ClipWork& work, const Subj
     if (!made) return Error{turn.what + made.error().message};
     results.print_new(warnings_of(*made, work.settings));
     DERMIS_TRY_ASSIGN(const std::string page, report_html(one.scene, *made, work.settings));
-    const std::string folder = frame_folder(turn.index);
+    const std::string folder = frame_folder(frame);
     DERMIS_TRY(write_text_file(work.directory / folder / "report.html", page));
     results.links.push_back(folder + "/report.html");
     const std::string regions = regions_csv(one.name, *made);
     results.regions += results.regions.empty() ? regions : regions.substr(regions.find('\n') + 1);
-    results.frames.push_back({.time_s = time_s, .rows = score_rows(one.name, *made)});
-    ClipEffects effects = clip_effects(*made);
-    if (results.before) DERMIS_TRY(set_motion_shares(*results.before, effects, results.frames.back().rows));
-    results.before = std::move(effects);
+    DERMIS_TRY(results.frames.add(one, time_s, *made));
     results.credit = one.scene.credit;
-    nlohmann::ordered_json frame = {{"time_s", time_s}};
-    frame.update(to_json((work.directory / folder).string(), one, *made));
-    results.json.push_back(std::move(frame));
+    nlohmann::ordered_json json = {{"time_s", time_s}};
+    json.update(to_json((work.directory / folder).string(), one, *made));
+    results.json.push_back(std::move(json));
     return {};
 }
 
 Result<void> write_clip_files(const ClipWork& work, const ClipResults& results) {
     std::vector<ScoreRow> rows;
-    for (const ClipFrame& frame : results.frames)
+    for (const ClipFrame& frame : results.frames.all)
         rows.insert(rows.end(), frame.rows.begin(), frame.rows.end());
-    const std::string scores = scores_csv(rows), clip = clip_csv(results.frames),
+    const std::string scores = scores_csv(rows), clip = clip_csv(results.frames.all),
                       page = clip_html(work.choice.scene.name + ", clip " + work.choice.scene.pose.clip,
-                                       results.credit, results.frames, results.links);
+                                       results.credit, results.frames.all, results.links);
     const FileContent files[] = {{work.directory / "report.html", as_bytes(page)},
                                  {work.directory / "clip.csv", as_bytes(clip)},
                                  {work.directory / "scores.csv", as_bytes(scores)},
@@ -87,9 +82,30 @@ Result<void> write_clip_files(const ClipWork& work, const ClipResults& results) 
     return write_files(files);
 }
 
+void print_clip(const ClipWork& work, const ClipResults& results, bool is_whole, bool json) {
+    if (json) {
+        const std::string& clip = work.choice.scene.pose.clip;
+        std::printf("%s\n", clip_json(clip, results.frames.all, results.json).dump(2).c_str());
+        return;
+    }
+    print_clip_table(results.frames.all);
+    const std::string page =
+        (work.directory / "report.html").string() + ", clip.csv, scores.csv, regions.csv, ";
+    std::printf("%sa folder with report.html a frame\n", is_whole ? page.c_str() : "");
+    if (!results.credit.empty()) std::printf("%s\n", results.credit.c_str());
+}
+
 }  // namespace
 
-Result<int> run_clip_comparison(const CompareChoice& choice, const std::string& output, bool json) {
+std::vector<std::string> clip_reports(const std::string& output, IndexRange range) {
+    std::vector<std::string> reports;
+    for (int frame = range.begin; frame < range.end; ++frame)
+        reports.push_back((fs::path(output) / frame_folder(frame) / "report.html").string());
+    return reports;
+}
+
+Result<int> run_clip_comparison(const CompareChoice& choice, IndexRange range, const std::string& output,
+                                bool json) {
     DERMIS_TRY_ASSIGN(const ComparisonSettings settings, choice.settings());
     DERMIS_TRY_ASSIGN(const std::vector<Contestant> contestants, choice.contestants());
     DERMIS_TRY_ASSIGN(const std::vector<double> times, clip_times(choice));
@@ -97,26 +113,23 @@ Result<int> run_clip_comparison(const CompareChoice& choice, const std::string& 
     const StopOnSignals stop_on_signals;
     DERMIS_TRY_ASSIGN(gpu::Device device, gpu::Device::create({.name_contains = choice.device}));
     ClipResults results;
-    std::optional<Scene> first;
-    for (size_t i = 0; i < times.size() && !stop_requested(); ++i) {
-        DERMIS_TRY_ASSIGN(const SubjectCase one, clip_frame(choice, times[i], first ? &*first : nullptr));
-        const Result<FileUse> kept = FileUse{.outputs = {work.directory / frame_folder(i) / "report.html"}};
+    DERMIS_TRY_ASSIGN(const Scene first, clip_view(choice, times.front()));
+    const size_t count = size_t(range.end - range.begin);
+    for (int frame = range.begin; frame < range.end && !stop_requested(); ++frame) {
+        const double time_s = times[size_t(frame)];
+        DERMIS_TRY_ASSIGN(const SubjectCase one, clip_frame(choice, time_s, &first));
+        const Result<FileUse> kept =
+            FileUse{.outputs = {work.directory / frame_folder(frame) / "report.html"}};
         DERMIS_TRY(keep_scene_files(one.scene, kept));
-        const ComparisonTurn turn{fmt::format("frame {}/{}: ", i + 1, times.size()), i, times.size()};
-        const Result<void> compared = compare_frame(device, work, one, times[i], turn, results);
+        const ComparisonTurn turn{fmt::format("frame {}/{}: ", frame + 1, times.size()),
+                                  size_t(frame - range.begin), count};
+        const Result<void> compared = compare_frame(device, work, frame, one, time_s, turn, results);
         // Stopped before the frame's first samples: those before it count.
-        if (!compared && !(stop_requested() && i > 0)) return compared.error();
-        if (!first) first = without_objects(one.scene);
+        if (!compared && !(stop_requested() && frame > range.begin)) return compared.error();
     }
-    DERMIS_TRY(write_clip_files(work, results));
-    if (json) {
-        std::printf("%s\n", clip_json(choice.scene.pose.clip, results.frames, results.json).dump(2).c_str());
-    } else {
-        print_clip_table(results.frames);
-        std::printf("%s, clip.csv, scores.csv, regions.csv, a folder with report.html a frame\n",
-                    (work.directory / "report.html").c_str());
-        if (!results.credit.empty()) std::printf("%s\n", results.credit.c_str());
-    }
+    const bool is_whole = count == times.size();
+    if (is_whole) DERMIS_TRY(write_clip_files(work, results));
+    print_clip(work, results, is_whole, json);
     return stop_requested() ? stopped_exit_code() : 0;
 }
 

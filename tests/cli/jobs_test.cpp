@@ -148,6 +148,28 @@ TEST_F(Jobs, frames_and_comparisons_are_lines_too) {
     EXPECT_NE(content("out/jobs/work.txt"), work);
 }
 
+TEST_F(Jobs, frames_of_a_compared_clip_are_those_of_one_run) {
+    const std::string command =
+        "compare bust -t lambert,wrap --clip greet --time 0.5 --frames 3 --fps 2 --size 32x32 --samples 64 "
+        "--samples-per-pixel 4 --noise 1 --timed-frames 1 --integrator walk -o ";
+    file("commands.txt", command + "out/clip\n");
+    expect_success("DERMIS_CACHE=one " DERMIS_PROGRAM " " + command + "out/one");
+    expect_success("DERMIS_CACHE=two " DERMIS_PROGRAM " jobs commands.txt --parts 2 --runner local");
+    const std::string work = content("out/jobs/work.txt"), merge = content("out/jobs/merge.txt");
+    EXPECT_EQ(std::count(work.begin(), work.end(), '\n'), 2);
+    EXPECT_THAT(work, HasSubstr("-o out/clip --frame-range 1:3 && cksum out/clip/frame_01/report.html"));
+    EXPECT_EQ(std::count(merge.begin(), merge.end(), '\n'), 1);
+    EXPECT_NE(content("out/one/clip.csv"), "");
+    EXPECT_EQ(content("out/clip/clip.csv"), content("out/one/clip.csv"));
+    // A range alone leaves the files of all frames as they are.
+    expect_success("rm out/clip/*.csv && DERMIS_CACHE=two " DERMIS_PROGRAM " " + command +
+                   "out/clip --frame-range 1:2");
+    EXPECT_FALSE(fs::exists(directory_.path / "out/clip/clip.csv"));
+    for (const std::string range : {"1:1", "0:4", "2", "2:1"})
+        EXPECT_THAT(shell(DERMIS_PROGRAM " " + command + "out/clip --frame-range " + range).err,
+                    HasSubstr("--frame-range"));
+}
+
 TEST_F(Jobs, what_is_no_job_is_refused_with_its_line) {
     expect_error("", "wrong.txt: no line has a command");
     expect_error("reference spheres --noise 0.1 -o a.exr\n",

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 struct CompareOptions {
     CompareChoice choice;
-    std::string output;
+    std::string output, frame_range;
     bool json = false;
 };
 
@@ -142,7 +142,9 @@ void print_results(const CompareOptions& options, const ComparedScenes& scenes,
 }
 
 Result<int> compare_scenes(const CompareOptions& options) {
-    if (options.choice.frames > 0) return run_clip_comparison(options.choice, options.output, options.json);
+    DERMIS_TRY_ASSIGN(const IndexRange range, clip_range(options.frame_range, options.choice.frames));
+    if (options.choice.frames > 0)
+        return run_clip_comparison(options.choice, range, options.output, options.json);
     DERMIS_TRY_ASSIGN(const ComparisonSettings settings, options.choice.settings());
     DERMIS_TRY_ASSIGN(const std::vector<Contestant> contestants, options.choice.contestants());
     DERMIS_TRY_ASSIGN(ComparedScenes scenes, scenes_of(options));
@@ -174,8 +176,28 @@ Result<void> add_clip_frames(const CompareChoice& choice, std::vector<SubjectCas
     return {};
 }
 
-// One job: the techniques share the reference.
-Result<JobPlan> plan(const CompareOptions& options, const std::vector<std::string>& words) {
+// Ranges of a clip's frames as jobs that compare them; the merge is the whole comparison, whose references
+// are then in the cache.
+JobPlan split_frames(const CompareOptions& options, const Job& whole, int parts) {
+    JobPlan plan{.work = {}, .merge = whole};
+    parts = std::min(parts, options.choice.frames);
+    for (int i = 0; i < parts; ++i) {
+        const IndexRange range{options.choice.frames * i / parts, options.choice.frames * (i + 1) / parts};
+        const std::string text = fmt::format("{}:{}", range.begin, range.end);
+        Job job{.name = whole.name + " frames " + text,
+                .hash = fmt::format("{}_{}_{}", whole.hash, range.begin, range.end),
+                .words = whole.words,
+                .results = clip_reports(options.output, range)};
+        job.words.insert(job.words.end(), {"--frame-range", text});
+        plan.work.push_back(std::move(job));
+    }
+    return plan;
+}
+
+// One job, as the techniques share the reference, or the frames of a clip.
+Result<JobPlan> plan(const CompareOptions& options, const std::vector<std::string>& words, int parts) {
+    if (!options.frame_range.empty())
+        return Error{"--frame-range: dermis jobs chooses the ranges; leave it out"};
     DERMIS_TRY_ASSIGN(const ComparisonSettings settings, options.choice.settings());
     DERMIS_TRY(options.choice.contestants());
     DERMIS_TRY_ASSIGN(ComparedScenes scenes, scenes_of(options));
@@ -187,11 +209,13 @@ Result<JobPlan> plan(const CompareOptions& options, const std::vector<std::strin
         content.push_back(Hasher().add(picture.with.bytes).add(picture.without.bytes).hex());
     const Result<std::string> hash = hash_of_job(all, content);
     if (!hash) return hash.error();
-    return JobPlan{.work = {{.name = options.output,
-                             .hash = *hash,
-                             .words = words,
-                             .results = {(fs::path(options.output) / "scores.csv").string(),
-                                         (fs::path(options.output) / "regions.csv").string()}}}};
+    const Job whole{.name = options.output,
+                    .hash = *hash,
+                    .words = words,
+                    .results = {(fs::path(options.output) / "scores.csv").string(),
+                                (fs::path(options.output) / "regions.csv").string()}};
+    return options.choice.frames > 1 && parts > 1 ? split_frames(options, whole, parts)
+                                                  : JobPlan{.work = {whole}};
 }
 
 }  // namespace
@@ -237,8 +261,11 @@ void add_compare_command(CommandLine& line) {
         ->capture_default_str();
     command->add_option("--frames", options->choice.frames, kClipFramesRange,
                         "compare this number of frames of the --clip, evenly over its length from --time on");
-    command->add_option("--fps", options->choice.fps, {0, 1000},
+    command->add_option("--fps", options->choice.fps, kFpsRange,
                         "frames in a second of the --clip instead, from --time on");
+    command->add_option("--frame-range", options->frame_range,
+                        "BEGIN:END: compare only this range of the --frames, without what is of all frames; "
+                        "references go to the cache");
     command->add_option(
         "--rest-bakes", options->choice.rest_bakes,
         "more rows, with bakes of the rest pose: normals, curvature, gain, occlusion, joined by "
@@ -252,7 +279,7 @@ void add_compare_command(CommandLine& line) {
     command->add_flag("--json", options->json, "print one JSON object");
     line.when_chosen(
         command, [options] { return files_of(*options); }, [options] { return run(*options); },
-        [options, &line](int, const std::string&) { return plan(*options, line.words); });
+        [options, &line](int parts, const std::string&) { return plan(*options, line.words, parts); });
 }
 
 }  // namespace dermis::cli
