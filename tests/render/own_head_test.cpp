@@ -13,7 +13,7 @@ class OwnHead : public RenderTest {};
 
 // Skin's base colour has more red than green; eyes and teeth have as much blue as green.
 std::string greener_than_red(const Image& light) {
-    constexpr float kRelative = 0.04f, kLeast = 0.03f, kLeastOverBlue = 0.01f;
+    constexpr float kRelative = 0.01f, kLeast = 0.03f, kLeastOverBlue = 0.01f;
     std::string places;
     for (int y = 0; y < light.height; ++y)
         for (int x = 0; x < light.width; ++x) {
