@@ -154,6 +154,16 @@ ClipComparison compare_clip(const SceneArguments& scene, const std::string& tech
     return watched(progress, [&](Watch& watch) { return compare_frames(call.choice, call.settings, watch); });
 }
 
+std::vector<std::string_view> names_of_regions() {
+    std::vector<std::string_view> names;
+    for (const Region region : kRegions) names.push_back(region_name(region));
+    return names;
+}
+
+py::array region(const py::object& self, size_t index) {
+    return view_of(self.cast<const OneComparison&>().comparison.regions.at(index), self);
+}
+
 // Picture of a technique's row, or of the reference.
 py::array picture(const py::object& self, int row, const std::string& name) {
     const OneComparison& made = self.cast<const OneComparison&>();
@@ -190,6 +200,8 @@ void add_comparisons(py::module_& module) {
     module.def("compare", compare);
     module.def("compare_clip", compare_clip);
     module.def("comparison_picture", picture);
+    module.def("region_names", names_of_regions);
+    module.def("comparison_region", region);
 }
 
 }  // namespace dermis::python

@@ -45,6 +45,11 @@ class Compare(TestCase):
         self.assertAlmostEqual(dermis.rmse(wrap, compared.reference, compared.skin), compared.rows[1]["rmse"], places=6)
         with self.assertRaises(KeyError):
             compared.radiance("wrapp")
+        convex = compared.regions["convex"]
+        self.assertEqual((convex.dtype, convex.shape), (numpy.float32, (48, 48)))
+        self.assertTrue(convex.any())
+        self.assertFalse((convex > compared.skin).any())
+        self.assertFalse(compared.regions["concave"].any())
 
     def test_effects_give_the_share(self):
         """As docs/reference.md defines it, but for the reference's noise."""

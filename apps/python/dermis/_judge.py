@@ -70,6 +70,12 @@ class Comparison:
         """1 where a pixel counts, float32, height x width."""
         return _dermis.comparison_picture(self._comparison, -1, "skin")
 
+    @property
+    def regions(self) -> dict[str, NDArray[numpy.float32]]:
+        """Parts of the skin by name (relief, terminator, shadow_edge, ...): 1 inside, float32, height x width."""
+        names = _dermis.region_names()
+        return {name: _dermis.comparison_region(self._comparison, i) for i, name in enumerate(names)}
+
     def radiance(self, name: str) -> NDArray[numpy.float32]:
         """The picture of one of `names`, linear radiance, float32, height x width x 3."""
         return _dermis.comparison_picture(self._comparison, self._row(name), "radiance")[..., :3]
