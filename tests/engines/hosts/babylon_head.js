@@ -9,13 +9,15 @@ import { Color4 } from "@babylonjs/core/Maths/math.color.js";
 import { Vector3 } from "@babylonjs/core/Maths/math.vector.js";
 import { Scene } from "@babylonjs/core/scene.js";
 import { loadSkinHead, placeSkinCamera } from "../SkinHead.js";
-import { showFloats } from "./floats.js";
+import { looksOf, momentsOf, showFloats } from "./floats.js";
 
 const query = new URLSearchParams(location.search), side = Number(query.get("side")), points = Number(query.get("points"));
 
-function makeMistake(head, name) {
+function dress(head, name) {
   if (name === "frames") for (const mesh of head.meshes) mesh.removeVerticesData("skin_frame");
   for (const skin of head.skins) {
+    Object.assign(skin, { scattering: name !== "lambert", gain: query.has("gain") });
+    skin.markAllDefinesAsDirty();
     if (name === "normals") skin.bakedNormals = null;
     if (name === "curvature") skin.curvatureGain = 0.001;
     if (name === "srgb" && skin.bakedNormals) for (const map of Object.values(skin.bakedNormals)) map.gammaSpace = true;
@@ -31,9 +33,6 @@ try {
   const engine = query.has("webgl") ? new Engine(canvas, false, options) : new WebGPUEngine(canvas, options);
   await engine.initAsync?.();
   const scene = new Scene(engine), head = await loadSkinHead(scene);
-  head.motion.pose(query.get("clip"), Number(query.get("time")));
-  makeMistake(head, query.get("mistake"));
-  for (const skin of head.skins) Object.assign(skin, { scattering: !query.has("lambert"), gain: query.has("gain") });
   scene.imageProcessingConfiguration.applyByPostProcess = true;  // linear
   const camera = new FreeCamera("camera", Vector3.Zero(), scene);
   placeSkinCamera(camera, head.settings);
@@ -44,9 +43,17 @@ try {
   scene.activeCamera = new FreeCamera("of the canvas", Vector3.Zero(), scene);
   scene.activeCamera.layerMask = 0;  // draws nothing: its shaders would be built too
   scene.customRenderTargets.push(target);
-  await scene.whenReadyAsync();
-  for (let i = 0; i < 2; ++i) scene.render();
-  showFloats(await target.readPixels(), { side, points, fromBottom: true });
+  const squares = [];
+  for (const look of looksOf(query)) {
+    dress(head, look);
+    await scene.whenReadyAsync();
+    for (const { clip, time_s } of momentsOf(query)) {
+      head.motion.pose(clip, time_s);
+      for (let i = 0; i < 2; ++i) scene.render();
+      squares.push((await target.readPixels()).slice());
+    }
+  }
+  showFloats(squares, { side, points, fromBottom: true });
 } catch (error) {
   document.getElementById("message").textContent = error.message;
 }

@@ -18,7 +18,19 @@ function base64(floats) {
   return btoa(text);
 }
 
-export function showFloats(floats, size) {
-  window.picture = { width: size.side, height: size.side, base64: base64(means(floats, size)) };
+// Clips and times that a page draws: ?clip=NAME&time=SECONDS, with &rest also the head without a clip before it.
+export function momentsOf(query) {
+  const moment = { clip: query.get("clip"), time_s: Number(query.get("time")) };
+  return query.has("rest") ? [{ clip: null, time_s: 0 }, moment] : [moment];
+}
+
+// What a page draws of each moment: skin, lambert or a mistake, ?looks=skin,lambert,frames in that order. A mistake stays, so it is last.
+export const looksOf = query => query.get("looks")?.split(",") ?? [query.has("lambert") ? "lambert" : query.get("mistake") ?? "skin"];
+
+// Squares of floats, one below the other.
+export function showFloats(squares, size) {
+  const picture = new Float32Array(squares.length * size.side * size.side * 3);
+  squares.forEach((floats, i) => picture.set(means(floats, size), i * size.side * size.side * 3));
+  window.picture = { width: size.side, height: squares.length * size.side, base64: base64(picture) };
   document.body.dataset.state = "drawn";
 }

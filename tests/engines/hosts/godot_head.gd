@@ -24,22 +24,36 @@ func _ready() -> void:
 	add_child(viewport)
 	var head: Node3D = load(FOLDER + "head/skin_head.tscn").instantiate()
 	viewport.add_child(head)
-	for skin: ShaderMaterial in head.skins:
-		for material: ShaderMaterial in [skin, skin.next_pass]:
-			material.set_shader_parameter("scattering", not choice.has("lambert"))
-			material.set_shader_parameter("curved_gain", choice.has("gain"))
-			if choice.get("mistake") == "normals":
-				material.set_shader_parameter("baked_normals", false)
-			if choice.get("mistake") == "frames":
-				material.set_shader_parameter("moves", false)
-			if choice.get("mistake") == "curvature":
-				material.set_shader_parameter("curvature_gain", 0.001)
-	if choice.has("clip"):
-		head.pose(choice.clip, float(choice.time))
 	energy = head.environment.background_energy_multiplier
 	head.environment.tonemap_exposure = SCALE
 	# Compatibility does not expose the background.
 	head.environment.background_color = (head.environment.background_color.srgb_to_linear() * SCALE).linear_to_srgb()
+	var usual: String = "lambert" if choice.has("lambert") else choice.get("mistake", "skin")
+	for look: String in choice.get("looks", usual).split(","):
+		_dress(head, look)
+		if choice.has("rest"):
+			head.pose("", 0.0)
+			await _add_moment(head)
+		if choice.has("clip"):
+			head.pose(choice.clip, float(choice.time))
+		await _add_moment(head)
+	JavaScriptBridge.eval("window.showMoments()")
+
+
+func _dress(head: Node3D, look: String) -> void:
+	for skin: ShaderMaterial in head.skins:
+		for material: ShaderMaterial in [skin, skin.next_pass]:
+			material.set_shader_parameter("scattering", look != "lambert")
+			material.set_shader_parameter("curved_gain", choice.has("gain"))
+			if look == "normals":
+				material.set_shader_parameter("baked_normals", false)
+			if look == "frames":
+				material.set_shader_parameter("moves", false)
+			if look == "curvature":
+				material.set_shader_parameter("curvature_gain", 0.001)
+
+
+func _add_moment(head: Node3D) -> void:
 	for only: Light3D in head.lights:
 		for light: Light3D in head.lights:
 			light.visible = light == only
@@ -49,7 +63,7 @@ func _ready() -> void:
 		light.visible = false
 	_set_ambient(head, 1.0)
 	await _add_picture()
-	JavaScriptBridge.eval("window.showSum(%f)" % SCALE)
+	JavaScriptBridge.eval("window.endMoment(%f)" % SCALE)
 
 
 func _set_ambient(head: Node3D, part: float) -> void:

@@ -1,5 +1,5 @@
 // The head of a package as linear floats for tools/checks/host_floats.mjs, drawn by Godot's web build (../godot): ?side=48&points=3, and as
-// three_head.js &lambert, &gain, &mistake. godot_head.gd runs in the engine; the package is a project of its own, packed here.
+// three_head.js &lambert, &gain, &mistake, &looks, &rest. godot_head.gd runs in the engine; the package is a project of its own, packed here.
 
 import { HalfFloatType } from "three";
 import { EXRLoader } from "three/addons/loaders/EXRLoader.js";
@@ -59,12 +59,16 @@ const read = async path => {
 };
 const written = (path, text) => ({ path, bytes: new TextEncoder().encode(text) });
 
-const sum = new Float32Array(4 * (side * points) ** 2), linear = s => s <= 0.04045 ? s / 12.92 : ((s + 0.055) / 1.055) ** 2.4;
+const squares = [], sum = new Float32Array(4 * (side * points) ** 2), linear = s => s <= 0.04045 ? s / 12.92 : ((s + 0.055) / 1.055) ** 2.4;
 window.addPicture = text => {
   const floats = new Float32Array(Uint8Array.from(atob(text), letter => letter.charCodeAt(0)).buffer);
   floats.forEach((value, i) => { sum[i] += linear(value); });
 };
-window.showSum = scale => showFloats(sum.map(value => value / scale), { side, points, fromBottom: false });
+window.endMoment = scale => {
+  squares.push(sum.map(value => value / scale));
+  sum.fill(0);
+};
+window.showMoments = () => showFloats(squares, { side, points, fromBottom: false });
 
 try {
   const names = await (await fetch("files.json")).json();
