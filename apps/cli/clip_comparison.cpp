@@ -115,7 +115,7 @@ Result<int> run_clip_comparison(const CompareChoice& choice, IndexRange range, c
     ClipResults results;
     DERMIS_TRY_ASSIGN(const Scene first, clip_view(choice, times.front()));
     const size_t count = size_t(range.end - range.begin);
-    for (int frame = range.begin; frame < range.end && !stop_requested(); ++frame) {
+    for (int frame = range.begin; frame < range.end; ++frame) {
         const double time_s = times[size_t(frame)];
         DERMIS_TRY_ASSIGN(const SubjectCase one, clip_frame(choice, time_s, &first));
         const Result<FileUse> kept =
@@ -126,6 +126,7 @@ Result<int> run_clip_comparison(const CompareChoice& choice, IndexRange range, c
         const Result<void> compared = compare_frame(device, work, frame, one, time_s, turn, results);
         // Stopped before the frame's first samples: those before it count.
         if (!compared && !(stop_requested() && frame > range.begin)) return compared.error();
+        if (stop_requested()) break;
     }
     const bool is_whole = count == times.size();
     if (is_whole) DERMIS_TRY(write_clip_files(work, results));
