@@ -24,8 +24,9 @@ const float kGatherFaint = 0.3;
 // A place counts 1 - kGatherTurn s^2 in red, where s is the slope of the quadric there: 0 from 35 degrees on.
 // Without it red's share of the surface integral on heads is lower by .01 (light skin) to .12.
 const float kGatherTurn = 2.0;
-// Red has at least this share of green's light. By captured shares.
-const float kGatherRedOfGreen = 0.9;
+// Red has at least this share of green's light. At .8 lids still turn green; .9 shows at a straight shadow on
+// flat skin.
+const float kGatherRedOfGreen = 0.87;
 // How far the visibility of the gain's light is extrapolated, as a multiple of the step from the visibility
 // at the point to the average over the profile. The share of random walks on heads is highest from 3 to 6.
 const float kGatherGain = 4.0;
@@ -78,8 +79,8 @@ vec3 gathered_light(float visibility, vec3 lit, vec3 all, float penumbra, float 
 }
 
 // gathered, with red from its own sums. gathered: gathered_light() over all places. red_sums: x is the sum of
-// gather_trust() times cosine times visibility, y the sum of gather_trust() times cosine. Where few places are
-// trusted red follows green: else shadows and lids in thin light turn green.
+// gather_trust() times cosine times visibility, y the sum of gather_trust() times cosine. Where few places
+// are trusted red follows green: else shadows and lids in thin light turn green.
 vec3 gathered_trusted_light(float visibility, vec3 gathered, vec2 red_sums, float penumbra, float count) {
     vec3 trusted = gathered_light(visibility, vec3(red_sums.x), vec3(red_sums.y), penumbra, count);
     return vec3(max(trusted.x, kGatherRedOfGreen * gathered.y), gathered.y, gathered.z);
