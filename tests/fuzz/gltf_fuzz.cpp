@@ -13,6 +13,7 @@ namespace {
 // As a head is exported: with its rig, in a file that loads again.
 void use_rig(std::span<const std::byte> bytes, const dermis::ReadSibling& read_buffer,
              const dermis::Mesh& mesh, const dermis::Pose& pose) {
+    if (mesh.file_vertices.empty()) return;  // nothing in the file moves
     const auto rig = dermis::read_rig(bytes, "dir/fuzz.gltf", read_buffer, mesh, pose, {.name = "root"});
     if (!rig) return;
     const auto written = dermis::glb_bytes(mesh, {}, {}, {}, &*rig);
