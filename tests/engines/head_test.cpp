@@ -123,8 +123,8 @@ class MovingHeadPackage : public HeadPackage {
     // Square `number` of those that a page drew one below the other.
     Image square(const Image& all, int number) {
         Image one(48, 48, 3);
-        EXPECT_EQ(all.height, 6 * 48);
-        for (int y = 0; y < 48 && all.height == 6 * 48; ++y)
+        EXPECT_EQ(all.height, 4 * 48);
+        for (int y = 0; y < 48 && all.height == 4 * 48; ++y)
             for (int x = 0; x < 48; ++x)
                 for (int c = 0; c < 3; ++c) one.set(x, y, c, all.at(x, 48 * number + y, c));
         return one;
@@ -257,16 +257,16 @@ TEST_P(BrowserHead, has_the_renderers_share_and_a_mistake_loses_it) {
 }
 
 // A moment of the clip with what was baked at rest, as `dermis render` draws it. Where the bakes do not turn
-// with the surface the head has light from elsewhere. One page draws all: loading a head takes most of its
-// time.
+// with the surface the head has light from elsewhere. A page draws several pictures: loading a head takes
+// most of its time.
 TEST_P(MovingHeadPackage, plays_its_clip_and_the_bakes_turn_with_the_surface) {
     const bool is_godot = engine() == "godot";
-    const ProgramResult drawn =
-        draw({{"all", device() + "&looks=skin,lambert,frames&rest&clip=greet&time=1.7"}});
+    const ProgramResult drawn = draw({{"all", device() + "&looks=skin,lambert&rest&clip=greet&time=1.7"},
+                                      {"mistake", device() + "&mistake=frames&clip=greet&time=1.7"}});
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
     const Image all = read("all");
-    const Image rest = square(all, 0), moved = square(all, 1), rest_lambert = square(all, 2),
-                moved_lambert = square(all, 3), mistaken = square(all, 5);
+    const Image rest = square(all, 0), rest_lambert = square(all, 1), moved = square(all, 2),
+                moved_lambert = square(all, 3);
 
     const std::string settings = is_godot ? " --set shadow=plain" : "",
                       moment = " --clip greet --time 1.7 --scene animation.rest_bakes=all";
@@ -282,7 +282,7 @@ TEST_P(MovingHeadPackage, plays_its_clip_and_the_bakes_turn_with_the_surface) {
     const double at_rest = error_of("rest", change(rest, rest_lambert), effect);
     EXPECT_LT(at_rest, is_godot ? 0.35 : 0.3);
     EXPECT_LT(error_of("moved", change(moved, moved_lambert), effect_then), at_rest + 0.03);
-    EXPECT_GT(error_of("mistake", change(mistaken, moved_lambert), effect_then), 0.6);
+    EXPECT_GT(error_of("mistake", change(read("mistake"), moved_lambert), effect_then), 0.6);
     // three.js has weaker reflections at the silhouette.
     const double motion = distance(lambert_then, lambert);
     EXPECT_NEAR(distance(moved_lambert, rest_lambert), motion, 0.35 * motion);

@@ -44,11 +44,11 @@ try {
   scene.activeCamera.layerMask = 0;  // draws nothing: its shaders would be built too
   scene.customRenderTargets.push(target);
   const squares = [];
-  for (const look of looksOf(query)) {
-    dress(head, look);
-    await scene.whenReadyAsync();
-    for (const { clip, time_s } of momentsOf(query)) {
-      head.motion.pose(clip, time_s);
+  for (const { clip, time_s } of momentsOf(query)) {
+    head.motion.pose(clip, time_s);
+    for (const look of looksOf(query)) {
+      dress(head, look);
+      await scene.whenReadyAsync();
       for (let i = 0; i < 2; ++i) scene.render();
       squares.push((await target.readPixels()).slice());
     }

@@ -24,7 +24,7 @@ export function momentsOf(query) {
   return query.has("rest") ? [{ clip: null, time_s: 0 }, moment] : [moment];
 }
 
-// What a page draws of each moment: skin, lambert or a mistake, ?looks=skin,lambert,frames in that order. A mistake stays, so it is last.
+// What a page draws of each moment: skin, lambert or a mistake; ?looks=skin,lambert draws both. A mistake stays: it is a page's only look.
 export const looksOf = query => query.get("looks")?.split(",") ?? [query.has("lambert") ? "lambert" : query.get("mistake") ?? "skin"];
 
 // Squares of floats, one below the other.

@@ -28,16 +28,12 @@ func _ready() -> void:
 	head.environment.tonemap_exposure = SCALE
 	# Compatibility does not expose the background.
 	head.environment.background_color = (head.environment.background_color.srgb_to_linear() * SCALE).linear_to_srgb()
-	var usual: String = "lambert" if choice.has("lambert") else choice.get("mistake", "skin")
-	for look: String in choice.get("looks", usual).split(","):
-		_dress(head, look)
-		if choice.has("rest"):
-			head.pose("", 0.0)
-			await _add_moment(head)
-		if choice.has("clip"):
-			head.pose(choice.clip, float(choice.time))
+	if choice.has("rest"):
 		await _add_moment(head)
-	JavaScriptBridge.eval("window.showMoments()")
+	if choice.has("clip"):
+		head.pose(choice.clip, float(choice.time))
+	await _add_moment(head)
+	JavaScriptBridge.eval("window.showSquares()")
 
 
 func _dress(head: Node3D, look: String) -> void:
@@ -54,6 +50,13 @@ func _dress(head: Node3D, look: String) -> void:
 
 
 func _add_moment(head: Node3D) -> void:
+	var usual: String = "lambert" if choice.has("lambert") else choice.get("mistake", "skin")
+	for look: String in choice.get("looks", usual).split(","):
+		_dress(head, look)
+		await _add_square(head)
+
+
+func _add_square(head: Node3D) -> void:
 	for only: Light3D in head.lights:
 		for light: Light3D in head.lights:
 			light.visible = light == only
@@ -63,7 +66,7 @@ func _add_moment(head: Node3D) -> void:
 		light.visible = false
 	_set_ambient(head, 1.0)
 	await _add_picture()
-	JavaScriptBridge.eval("window.endMoment(%f)" % SCALE)
+	JavaScriptBridge.eval("window.endSquare(%f)" % SCALE)
 
 
 func _set_ambient(head: Node3D, part: float) -> void:

@@ -64,11 +64,11 @@ window.addPicture = text => {
   const floats = new Float32Array(Uint8Array.from(atob(text), letter => letter.charCodeAt(0)).buffer);
   floats.forEach((value, i) => { sum[i] += linear(value); });
 };
-window.endMoment = scale => {
+window.endSquare = scale => {
   squares.push(sum.map(value => value / scale));
   sum.fill(0);
 };
-window.showMoments = () => showFloats(squares, { side, points, fromBottom: false });
+window.showSquares = () => showFloats(squares, { side, points, fromBottom: false });
 
 try {
   const names = await (await fetch("files.json")).json();

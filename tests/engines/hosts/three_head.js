@@ -32,10 +32,10 @@ try {
   const target = new RenderTarget(wide, wide, { type: FloatType });
   renderer.setRenderTarget(target);
   const squares = [];
-  for (const look of looksOf(query)) {
-    dress(head, look);
-    for (const { clip, time_s } of momentsOf(query)) {
-      head.motion.pose(clip, time_s);
+  for (const { clip, time_s } of momentsOf(query)) {
+    head.motion.pose(clip, time_s);
+    for (const look of looksOf(query)) {
+      dress(head, look);
       for (let i = 0; i < 2; ++i) renderer.render(scene, head.camera);
       squares.push(await renderer.readRenderTargetPixelsAsync(target, 0, 0, wide, wide));
     }
