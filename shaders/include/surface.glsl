@@ -36,7 +36,7 @@ layout(scalar) uniform Material {
     float scatter;                 // share of the skin's diffuse light that scatters
     int has_wrinkle_map;           // bits: kWrinkleStretch, kWrinkleCompress
     float wrinkle_from, wrinkle_full;  // tensions
-    float wrinkle_stretch_weight, wrinkle_compress_weight;  // of the maps' morph targets, 0 to 1
+    float wrinkle_stretch_weight, wrinkle_compress_weight;  // least shares by morph targets, 0 to 1
 };
 
 // Whether any material of the scene has the map; without one, the value 1 is a constant.
@@ -85,7 +85,7 @@ float magnification_levels(sampler2D map, vec2 uv) {
     return max(-textureQueryLod(map, uv).y, 0.0);
 }
 
-// Of the maps of stretched and of compressed skin.
+// The shares of the normal that the wrinkle maps of stretched and of compressed skin have.
 vec2 wrinkle_shares() {
     float stretch = (has_wrinkle_map & kWrinkleStretch) == 0
                         ? 0.0

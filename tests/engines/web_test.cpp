@@ -295,7 +295,7 @@ TEST_F(MovingPage, in_a_browser_a_pose_of_a_clip_is_the_renderers) {
         ASSERT_EQ(posed.width, 256);
         const Image our_rest = ours(scene, ""),
                     our_posed = ours(scene, std::string("--clip ") + clip + " --time 1.7");
-        // Of the bust the page has fewer triangles and smaller maps.
+        // The page's bust has fewer triangles and smaller maps than the scene's.
         EXPECT_LT(missed(our_rest, our_posed, rest, posed), mesh == std::string("builtin:bust") ? 0.45 : 0.2)
             << clip;
         EXPECT_GT(missed(our_rest, our_posed, rest, rest), 0.9) << clip << ": a page that stays";
