@@ -5,17 +5,19 @@
 #include "shaders/include/frame.glsl"
 #include "shaders/include/wrinkles.h"
 
+// With several samples a pixel a triangle may cover a sample and not the pixel's middle. centroid keeps what would be wrong
+// beyond the triangle, as occlusion below 0, inside of it; the others keep the derivatives that pick mip levels.
 layout(location = 0) in vec3 p_world_mm_in;
 layout(location = 1) in vec3 n_world_in;
 layout(location = 2) in vec4 t_world_in;
 layout(location = 3) in vec2 uv_in;
-layout(location = 4) in float occlusion_in;
-layout(location = 5) in vec3 curvature_diagonal_per_mm_in;
-layout(location = 6) in vec3 curvature_mixed_per_mm_in;
-layout(location = 7) in vec3 occlusion_blurred_in;
-layout(location = 8) in vec4 color_linear_in;
+layout(location = 4) centroid in float occlusion_in;
+layout(location = 5) centroid in vec3 curvature_diagonal_per_mm_in;
+layout(location = 6) centroid in vec3 curvature_mixed_per_mm_in;
+layout(location = 7) centroid in vec3 occlusion_blurred_in;
+layout(location = 8) centroid in vec4 color_linear_in;
 layout(location = 9) in vec2 atlas_uv_in;
-layout(location = 10) in vec3 walked_gain_in;  // dermis/rays/vertex_gain.h
+layout(location = 10) centroid in vec3 walked_gain_in;  // dermis/rays/vertex_gain.h
 layout(location = 13) in float tension_in;     // dermis/mesh/tension.h; 0 of meshes at rest
 
 layout(scalar) uniform Material {

@@ -1,5 +1,6 @@
 // A character as people have them: many materials, no maps of colour.
 
+#include <algorithm>
 #include <filesystem>
 
 #include "mesh/mesh_files.h"
@@ -36,5 +37,22 @@ TEST_F(OwnHead, no_skin_is_greener_than_red) {
         const Image light = radiance(renderer, technique, ParameterValues(technique.parameters),
                                      {.width = 768, .height = 768});
         EXPECT_EQ(greener_than_red(light), "") << technique.id;
+    }
+}
+
+// At samples of an edge what vertices carry is not continued beyond the triangle.
+TEST_F(OwnHead, no_light_is_below_zero_with_four_samples_a_pixel) {
+    const std::filesystem::path file = test::asset("ict_face/ict_moving.glb");
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is needed";
+    const Scene scene = load(file.string());
+    Renderer renderer = make_renderer(scene);
+    for (const Technique& technique : built_in_catalog().techniques) {
+        const Image light = radiance(renderer, technique, ParameterValues(technique.parameters),
+                                     {.width = 384, .height = 384, .samples = 4});
+        float least = 0;
+        for (int y = 0; y < light.height; ++y)
+            for (int x = 0; x < light.width; ++x)
+                for (int c = 0; c < 3; ++c) least = std::min(least, light.at(x, y, c));
+        EXPECT_EQ(least, 0) << technique.id;
     }
 }
