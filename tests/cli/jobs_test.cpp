@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "cli/run_program.h"
+#include "support/moving_sheet.h"
 #include "support/temporary_directory.h"
 #include "test_paths.h"
 
@@ -149,8 +150,10 @@ TEST_F(Jobs, frames_and_comparisons_are_lines_too) {
 }
 
 TEST_F(Jobs, frames_of_a_compared_clip_are_those_of_one_run) {
+    file("sheet.gltf", test::moving_sheet());
     const std::string command =
-        "compare bust -t lambert,wrap --clip greet --time 0.5 --frames 3 --fps 2 --size 32x32 --samples 64 "
+        "compare sheet.gltf -t lambert,wrap --clip nod --time 0.5 --frames 3 --fps 2 --size 32x32 --samples "
+        "64 "
         "--samples-per-pixel 4 --noise 1 --timed-frames 1 --integrator walk -o ";
     file("commands.txt", command + "out/clip\n");
     expect_success("DERMIS_CACHE=one " DERMIS_PROGRAM " " + command + "out/one");

@@ -304,7 +304,8 @@ TEST_F(MovingPage, in_a_browser_a_pose_of_a_clip_is_the_renderers) {
 
 TEST_F(MovingPage, in_a_browser_plays_and_pauses_its_clips) {
     if (!has_browser()) GTEST_SKIP() << "no chromium or no node here";
-    const fs::path folder = write_page("bust");
+    ASSERT_TRUE(write_text_file(directory_.path / "sheet.gltf", test::moving_sheet()));
+    const fs::path folder = write_page((directory_.path / "sheet.gltf").string());
     const ProgramResult good = run_script("clips " + folder.string());
     EXPECT_EQ(good.exit_code, 0) << good.err;
     // The check can fail: a page that forgets the pose.

@@ -16,7 +16,8 @@ const query = new URLSearchParams(location.search), side = Number(query.get("sid
 function dress(head, name) {
   if (name === "frames") for (const mesh of head.meshes) mesh.removeVerticesData("skin_frame");
   for (const skin of head.skins) {
-    Object.assign(skin, { scattering: name !== "lambert", gain: query.has("gain") });
+    skin.whole ??= { bakedNormals: skin.bakedNormals, curvatureGain: skin.curvatureGain };
+    Object.assign(skin, skin.whole, { scattering: name !== "lambert", gain: name === "gain" });
     skin.markAllDefinesAsDirty();
     if (name === "normals") skin.bakedNormals = null;
     if (name === "curvature") skin.curvatureGain = 0.001;

@@ -24,8 +24,10 @@ export function momentsOf(query) {
   return query.has("rest") ? [{ clip: null, time_s: 0 }, moment] : [moment];
 }
 
-// What a page draws of each moment: skin, lambert or a mistake; ?looks=skin,lambert draws both. A mistake stays: it is a page's only look.
-export const looksOf = query => query.get("looks")?.split(",") ?? [query.has("lambert") ? "lambert" : query.get("mistake") ?? "skin"];
+// What a page draws of each moment: skin, lambert, gain or a mistake; ?looks=skin,lambert draws both. The mistakes srgb, levels and frames
+// stay: each is a page's last look.
+export const looksOf = query =>
+  query.get("looks")?.split(",") ?? [["lambert", "gain"].find(name => query.has(name)) ?? query.get("mistake") ?? "skin"];
 
 // Squares of floats, one below the other.
 export function showFloats(squares, size) {

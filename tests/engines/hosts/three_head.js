@@ -12,12 +12,13 @@ const query = new URLSearchParams(location.search), side = Number(query.get("sid
 function dress(head, name) {
   if (name === "frames") head.group.traverse(node => node.geometry?.deleteAttribute("texcoord_6"));
   for (const skin of head.skins) {
-    Object.assign(skin, { scattering: name !== "lambert", gain: query.has("gain"), needsUpdate: true });
+    skin.whole ??= { bakedNormals: skin.bakedNormals, curvatureGain: skin.curvatureGain };
+    Object.assign(skin, skin.whole, { scattering: name !== "lambert", gain: name === "gain", needsUpdate: true });
     if (name === "normals") skin.bakedNormals = null;
     if (name === "curvature") skin.curvatureGain = 0.001;
     if (name === "srgb" && skin.bakedNormals) for (const map of Object.values(skin.bakedNormals)) map.colorSpace = SRGBColorSpace;
     if (name === "levels" && skin.bakedNormals)
-      for (const map of Object.values(skin.bakedNormals)) Object.assign(map, { generateMipmaps: false, minFilter: LinearFilter });
+      for (const map of Object.values(skin.bakedNormals)) Object.assign(map, { generateMipmaps: false, minFilter: LinearFilter, needsUpdate: true });
   }
 }
 
