@@ -24,6 +24,7 @@ enum class ToolId {
     separable_sss,
     hdrp,
     unreal,
+    babylon,
     blender_burley,
     blender_random_walk,
     blender_random_walk_skin,

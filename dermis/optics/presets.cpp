@@ -5,6 +5,7 @@
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
+#include "dermis/optics/artistic_kernel.h"
 #include "dermis/optics/burley_scaling.h"
 #include "dermis/optics/gltf_profile.h"
 #include "dermis/optics/mtlx.h"
@@ -52,16 +53,17 @@ constexpr Rgb kFairRadiusCm = {0.482, 0.169, 0.109}, kDarkRadiusCm = {0.367, 0.1
 // which the source takes for light reflected at the surface. Its filter multiplies two 1-D kernels, which is
 // not this radial profile exactly.
 Profile separable_sss() {
-    constexpr Rgb kStrength = {0.48, 0.41, 0.28}, kFalloff = {1.0, 0.37, 0.3};
+    const ArtisticKernel kernel;
     const std::vector<GaussianTerm> red = gpu_gems_3_skin().terms;
     double scattered = 0;
     for (size_t i = 1; i < red.size(); ++i) scattered += red[i].weight[0];
     GaussianSum sum{.name = "separable_sss"};
     for (size_t c = 0; c < 3; ++c)
         for (size_t i = 0; i < red.size(); ++i) {
-            const double width = 0.001 + kFalloff[c];
+            const double width = 0.001 + kernel.falloff[c];
             GaussianTerm term{.variance_mm2 = red[i].variance_mm2 * width * width, .weight = {0, 0, 0}};
-            term.weight[c] = i == 0 ? 1 - kStrength[c] : kStrength[c] * red[i].weight[0] / scattered;
+            term.weight[c] =
+                i == 0 ? 1 - kernel.strength[c] : kernel.strength[c] * red[i].weight[0] / scattered;
             sum.terms.push_back(term);
         }
     return {
@@ -74,9 +76,9 @@ Profile separable_sss() {
 // FSubsurfaceProfileStruct's defaults: a diffuse mean free path of 2.6748 mm times its colour.
 Profile unreal_default() {
     BurleyProfile burley{.albedo = {0.91058, 0.338275, 0.2718}};
-    constexpr Rgb kColor = {1.0, 0.088964, 0.072095};
+    constexpr Rgb kPathColor = {1.0, 0.088964, 0.072095};
     for (size_t c = 0; c < 3; ++c)
-        burley.d_mm[c] = 2.6748 * 0.1 * 10 * kColor[c] / diffuse_mean_free_path_per_d(burley.albedo[c]);
+        burley.d_mm[c] = 2.6748 * 0.1 * 10 * kPathColor[c] / diffuse_mean_free_path_per_d(burley.albedo[c]);
     return {"unreal_default",
             "Unreal Engine 5.0 Python API, SubsurfaceProfileStruct defaults (diffuse mean free path)",
             burley};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dermis/optics/artistic_kernel.h"
 #include "dermis/optics/burley_scaling.h"
 #include "dermis/optics/preintegration.h"
 #include "dermis/optics/presets.h"
@@ -80,16 +81,16 @@ double separable_mean_radius(double strength) {
     return strength * weighted / weights + (1 - strength) * std::sqrt(pi * red[0].variance_mm2 / 2);
 }
 
-constexpr Rgb kSeparableStrength = {0.48, 0.41, 0.28};
+constexpr ArtisticKernel kSeparableKernel;
 
 Values write_separable(const BurleyProfile& burley) {
     Rgb widening;  // (0.001 + falloff) times width / 3
     for (size_t c = 0; c < 3; ++c)
-        widening[c] = 2.5 * burley.d_mm[c] / separable_mean_radius(kSeparableStrength[c]);
+        widening[c] = 2.5 * burley.d_mm[c] / separable_mean_radius(kSeparableKernel.strength[c]);
     const double unit = *std::ranges::max_element(widening) / 1.001;
     Rgb falloff;
     for (size_t c = 0; c < 3; ++c) falloff[c] = widening[c] / unit - 0.001;
-    return {{kSeparableKernelRange * unit}, kSeparableStrength, falloff};
+    return {{kSeparableKernelRange * unit}, kSeparableKernel.strength, falloff};
 }
 BurleyProfile read_separable(const Values& values) {
     BurleyProfile burley;
@@ -107,6 +108,25 @@ Values write_hdrp(const BurleyProfile& burley) {
 }
 BurleyProfile read_hdrp(const Values& values) {
     return burley_of_lengths({1, 1, 1}, values[0], values[1][0], d_itself, 1);
+}
+
+// Babylon.js 9.34 (subSurfaceConfiguration.js, subSurfaceScattering.fragment.js) takes a colour for 1/d in
+// 1/mm and its largest channel also for the d in mm that the samples are drawn from: both are true if the
+// largest is the reciprocal of the smallest. It takes the picture for half as wide as it is, so lengths on
+// the picture are twice those of the profile.
+constexpr double kBabylonWidening = 2;
+
+Values write_babylon(const BurleyProfile& burley) {
+    const double largest = *std::ranges::max_element(burley.d_mm);
+    Rgb d_mm;  // a channel without light takes the largest
+    for (size_t c = 0; c < 3; ++c) d_mm[c] = burley.d_mm[c] > 0 ? burley.d_mm[c] : largest;
+    const double middle = std::sqrt(largest * *std::ranges::min_element(d_mm));
+    return {{middle / d_mm[0], middle / d_mm[1], middle / d_mm[2]}, {kBabylonWidening / middle}};
+}
+BurleyProfile read_babylon(const Values& values) {
+    BurleyProfile burley;
+    for (size_t c = 0; c < 3; ++c) burley.d_mm[c] = kBabylonWidening / (values[0][c] * values[1][0]);
+    return burley;
 }
 
 constexpr double kUnrealWorldUnitScale = 0.1;
@@ -208,8 +228,8 @@ ToolRow separable_sss_row() {
              kAlbedoInMap,
              {length_key("sssWidth", 3, "mm",
                          "3 mm is the scale of GPU Gems 3; divide by the mm in a world unit"),
-              color_key("strength", kSeparableStrength, "the part of the light that is blurred"),
-              ratio_key("falloff", {1, 0.37, 0.3}, "widens red's Gaussians per channel")}},
+              color_key("strength", kSeparableKernel.strength, "the part of the light that is blurred"),
+              ratio_key("falloff", kSeparableKernel.falloff, "widens red's Gaussians per channel")}},
             write_separable,
             read_separable};
 }
@@ -225,6 +245,19 @@ ToolRow hdrp() {
                          "1 m a unit")}},
             write_hdrp,
             read_hdrp};
+}
+ToolRow babylon() {
+    return {{ToolId::babylon,
+             "babylon",
+             "the reciprocal of Burley d, on the picture's plane",
+             "none: a normalised blur of irradiance",
+             kAlbedoInMap,
+             {ratio_key("color", {1, 1, 1}, "of addDiffusionProfile; the widest channel the smallest"),
+              length_key("metersPerUnit", 1, "",
+                         "of the scene; divide by the units in a metre. Burley d is 2 mm / (color * "
+                         "metersPerUnit)")}},
+            write_babylon,
+            read_babylon};
 }
 ToolRow unreal() {
     return {{ToolId::unreal,
@@ -307,6 +340,7 @@ const std::vector<ToolRow>& tool_rows() {
         separable_sss_row(),
         hdrp(),
         unreal(),
+        babylon(),
         blender<four_pi_mean_free_path_per_d>(ToolId::blender_burley, "blender_burley",
                                               "4 pi times the mean free path 1/sigma_t",
                                               "index-matched, diffuse light"),

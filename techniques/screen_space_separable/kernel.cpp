@@ -15,26 +15,6 @@ GaussianSum to_gaussian_sum(const TwoGaussians& kernel) {
     return {.name = "two_gaussians", .terms = {near, far}};
 }
 
-GaussianSum to_gaussian_sum(const Artistic& kernel) {
-    const std::vector<GaussianTerm> skin = gpu_gems_3_skin().terms;
-    const float strength[3] = {kernel.strength.x, kernel.strength.y, kernel.strength.z};
-    const float falloff[3] = {kernel.falloff.x, kernel.falloff.y, kernel.falloff.z};
-    double total = 0;
-    for (size_t i = 1; i < skin.size(); ++i) total += skin[i].weight[kRed] / std::sqrt(skin[i].variance_mm2);
-    GaussianSum sum = {.name = "artistic", .terms = {{.variance_mm2 = 0}}};
-    for (size_t c = 0; c < 3; ++c) {
-        sum.terms[0].weight[c] = 1 - double(strength[c]);
-        const double wider = 0.001 + double(falloff[c]);
-        for (size_t i = 1; i < skin.size(); ++i) {
-            GaussianTerm term = {.variance_mm2 = skin[i].variance_mm2 * wider * wider, .weight = {}};
-            term.weight[c] =
-                double(strength[c]) * skin[i].weight[kRed] / std::sqrt(skin[i].variance_mm2) / total;
-            sum.terms.push_back(term);
-        }
-    }
-    return sum;
-}
-
 float reach_mm(const GaussianSum& profile, float width) {
     double widest_mm2 = 0;
     for (const GaussianTerm& term : profile.terms) widest_mm2 = std::max(widest_mm2, term.variance_mm2);

@@ -16,17 +16,6 @@ struct TwoGaussians {
 /// As a profile whose weights sum to 1 in each channel.
 [[nodiscard]] GaussianSum to_gaussian_sum(const TwoGaussians& kernel);
 
-/// The kernel of the source's own code: the part `strength` of the light is spread by the five wide Gaussians
-/// that GPU Gems 3 has for red, widened by 0.001 + falloff. The rest is not spread.
-struct Artistic {
-    Vec3 strength = {0.48f, 0.41f, 0.28f};
-    Vec3 falloff = {1, 0.37f, 0.3f};
-};
-
-/// As shares of the light along a line, which sum to 1 in each channel. The published code uses Gaussians
-/// that are normalised over the plane, 1 / (2 pi v), along a line, so each counts as w / sqrt(v).
-[[nodiscard]] GaussianSum to_gaussian_sum(const Artistic& kernel);
-
 /// Where the kernel is cut off: a multiple of its widest standard deviation; 1 without any Gaussian.
 [[nodiscard]] float reach_mm(const GaussianSum& profile, float width);
 

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "dermis/optics/artistic_kernel.h"
+
 using namespace dermis;
 using namespace dermis::screen_space_separable;
 
@@ -44,7 +46,7 @@ TEST(SeparableKernel, of_two_gaussians_has_their_shares) {
 
 // Strength .48, falloff 1 in red: the light that stays, and of the rest what the widest leaves beyond 5 mm.
 TEST(SeparableKernel, of_an_artist_keeps_what_strength_leaves_and_is_narrower_with_less_falloff) {
-    const GaussianSum sum = to_gaussian_sum(Artistic());
+    const GaussianSum sum = line_kernel(ArtisticKernel());
     for (size_t c = 0; c < 3; ++c) {
         double total = 0;
         for (const GaussianTerm& term : sum.terms) total += term.weight[c];

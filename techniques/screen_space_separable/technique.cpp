@@ -4,6 +4,7 @@
 // distances are between points on the skin, and the weight of a tap is the kernel's integral over its cell
 // (blur.frag).
 
+#include "dermis/optics/artistic_kernel.h"
 #include "dermis/technique/screen_light.h"
 #include "techniques/screen_space_separable/constants.h"
 #include "techniques/screen_space_separable/kernel.h"
@@ -26,8 +27,8 @@ struct Params {
     float near_mm = TwoGaussians().near_mm;
     float far_mm = TwoGaussians().far_mm;
     Vec3 far_share = TwoGaussians().far_share;
-    Vec3 strength = Artistic().strength;
-    Vec3 falloff = Artistic().falloff;
+    Vec3 strength = to_vec3(ArtisticKernel().strength);
+    Vec3 falloff = to_vec3(ArtisticKernel().falloff);
     Taps taps = Taps::taps_17;
     Follow follow = Follow::surface;
     Transmission transmission = Transmission::shadow_map;
@@ -63,8 +64,10 @@ int32_t half_taps(Taps taps) {
 }
 
 GaussianSum kernel_of(const Params& params, const GaussianSum& skin) {
+    const Vec3 strength = params.strength, falloff = params.falloff;
     if (params.kernel == Kernel::artistic)
-        return to_gaussian_sum(Artistic{.strength = params.strength, .falloff = params.falloff});
+        return line_kernel(
+            {.strength = {strength.x, strength.y, strength.z}, .falloff = {falloff.x, falloff.y, falloff.z}});
     if (params.kernel != Kernel::two_gaussians) return skin;
     return to_gaussian_sum(
         TwoGaussians{.near_mm = params.near_mm, .far_mm = params.far_mm, .far_share = params.far_share});

@@ -22,7 +22,8 @@ namespace {
 const BurleyProfile kSkin{.albedo = {0.62, 0.43, 0.34}, .d_mm = {1.14, 0.48, 0.31}};
 
 bool keeps_albedo(ToolId tool) {
-    return tool != ToolId::faceworks && tool != ToolId::separable_sss && tool != ToolId::hdrp;
+    return tool != ToolId::faceworks && tool != ToolId::separable_sss && tool != ToolId::hdrp &&
+           tool != ToolId::babylon;
 }
 
 }  // namespace
