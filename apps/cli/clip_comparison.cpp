@@ -40,18 +40,22 @@ struct ClipWork {
     const ComparisonSettings& settings;
     const std::vector<Contestant>& contestants;
     fs::path directory;
+    ClipFrames& frames;
 };
 
 std::string frame_folder(int frame) {
     return fmt::format("frame_{:02}", frame);
 }
 
-Result<void> compare_frame(gpu::Device& device, const ClipWork& work, int frame, const SubjectCase& one,
-                           double time_s, const ComparisonTurn& turn, ClipResults& results) {
+Result<void> compare_frame(gpu::Device& device, const ClipWork& work, int frame, const ComparisonTurn& turn,
+                           ClipResults& results) {
+    const SubjectCase& one = work.frames.shown();
+    const double time_s = work.frames.times_s()[size_t(frame)];
     results.print_new(one.scene.warnings);
     ComparisonProgress progress(turn);
-    Result<Comparison> made = compare_techniques(device, built_in_catalog(), one.scene, work.contestants,
-                                                 work.settings, progress.hooks());
+    Result<Comparison> made =
+        compare_techniques(device, work.frames.renderer(), built_in_catalog(), one.scene, work.contestants,
+                           work.settings, progress.hooks());
     if (!made) return Error{turn.what + made.error().message};
     results.print_new(warnings_of(*made, work.settings));
     DERMIS_TRY_ASSIGN(const std::string page, report_html(one.scene, *made, work.settings));
@@ -108,27 +112,25 @@ Result<int> run_clip_comparison(const CompareChoice& choice, IndexRange range, c
                                 bool json) {
     DERMIS_TRY_ASSIGN(const ComparisonSettings settings, choice.settings());
     DERMIS_TRY_ASSIGN(const std::vector<Contestant> contestants, choice.contestants());
-    DERMIS_TRY_ASSIGN(const std::vector<double> times, clip_times(choice));
-    const ClipWork work{choice, settings, contestants, output};
     const StopOnSignals stop_on_signals;
     DERMIS_TRY_ASSIGN(gpu::Device device, gpu::Device::create({.name_contains = choice.device}));
+    DERMIS_TRY_ASSIGN(ClipFrames frames, ClipFrames::load(choice, device));
+    const ClipWork work{choice, settings, contestants, output, frames};
     ClipResults results;
-    DERMIS_TRY_ASSIGN(const Scene first, clip_view(choice, times.front()));
-    const size_t count = size_t(range.end - range.begin);
+    const size_t count = size_t(range.end - range.begin), all = frames.times_s().size();
     for (int frame = range.begin; frame < range.end; ++frame) {
-        const double time_s = times[size_t(frame)];
-        DERMIS_TRY_ASSIGN(const SubjectCase one, clip_frame(choice, time_s, &first));
+        DERMIS_TRY(frames.show(size_t(frame)));
         const Result<FileUse> kept =
             FileUse{.outputs = {work.directory / frame_folder(frame) / "report.html"}};
-        DERMIS_TRY(keep_scene_files(one.scene, kept));
-        const ComparisonTurn turn{fmt::format("frame {}/{}: ", frame + 1, times.size()),
-                                  size_t(frame - range.begin), count};
-        const Result<void> compared = compare_frame(device, work, frame, one, time_s, turn, results);
+        DERMIS_TRY(keep_scene_files(frames.shown().scene, kept));
+        const ComparisonTurn turn{fmt::format("frame {}/{}: ", frame + 1, all), size_t(frame - range.begin),
+                                  count};
+        const Result<void> compared = compare_frame(device, work, frame, turn, results);
         // Stopped before the frame's first samples: those before it count.
         if (!compared && !(stop_requested() && frame > range.begin)) return compared.error();
         if (stop_requested()) break;
     }
-    const bool is_whole = count == times.size();
+    const bool is_whole = count == all;
     if (is_whole) DERMIS_TRY(write_clip_files(work, results));
     print_clip(work, results, is_whole, json);
     return stop_requested() ? stopped_exit_code() : 0;

@@ -11,6 +11,7 @@
 #include "dermis/base/progress.h"
 #include "dermis/base/text.h"
 #include "dermis/scene/scene_files.h"
+#include "render_frames.h"
 
 namespace dermis::cli {
 namespace {
@@ -132,15 +133,6 @@ std::vector<std::filesystem::path> frame_files(const std::string& pattern, Index
     std::vector<std::filesystem::path> files;
     for (int frame = range.begin; frame < range.end; ++frame) files.emplace_back(frame_path(pattern, frame));
     return files;
-}
-
-void turn_camera(Scene& scene, const Camera& start, double angle_rad) {
-    const Vec3 offset = start.eye_mm - start.target_mm;
-    const float c = float(std::cos(angle_rad)), s = float(std::sin(angle_rad));
-    scene.camera = start;
-    scene.camera.eye_mm =
-        start.target_mm + Vec3{c * offset.x + s * offset.z, offset.y, c * offset.z - s * offset.x};
-    fit_depth_range(scene.camera, scene.bounds_center_mm, scene.bounds_radius_mm);
 }
 
 Result<FileUse> turntable_files(const Turntable& turntable) {

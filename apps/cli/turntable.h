@@ -14,9 +14,6 @@ namespace dermis::cli {
 /// Those names of a range of frames; one where the name has no number.
 [[nodiscard]] std::vector<std::filesystem::path> frame_files(const std::string& pattern, IndexRange range);
 
-/// Turns the eye about the target's vertical and fits the depth range.
-void turn_camera(Scene& scene, const Camera& start, double angle_rad);
-
 struct Turntable {
     RenderOptions render;
     std::string output = "out/%04d.png";  ///< a pattern, or a film: .mp4 (30 frames a second, needs ffmpeg)

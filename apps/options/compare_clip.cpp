@@ -2,18 +2,19 @@
 
 #include <fmt/core.h>
 
+#include "catalog/catalog.h"
 #include "dermis/base/text.h"
+#include "dermis/render/move_scene.h"
 #include "dermis/scene/pose_scene.h"
 
 namespace dermis::cli {
-Result<std::vector<double>> clip_times(const CompareChoice& choice) {
-    const double start_s = choice.scene.pose.time_s.value_or(0);
+Result<std::vector<double>> clip_times(const CompareChoice& choice, const Scene& scene) {
+    const double start_s = scene.motion.time_s;
     std::vector<double> times;
     if (choice.fps > 0) {
         for (int i = 0; i < choice.frames; ++i) times.push_back(start_s + i / choice.fps);
         return times;
     }
-    DERMIS_TRY_ASSIGN(const Scene scene, choice.scene.load());
     const double length_s = clip_length_s(scene);
     if (start_s >= length_s)
         return Error{"--time " + to_text(start_s) + ": the clip ends at " + to_text(length_s) +
@@ -31,25 +32,27 @@ Result<IndexRange> clip_range(const std::string& frame_range, int count) {
                  " frames (--frames); write BEGIN:END, such as 0:1"};
 }
 
-Result<Scene> clip_view(const CompareChoice& choice, double time_s) {
-    SceneChoice moment = choice.scene;
-    moment.pose.time_s = time_s;
-    DERMIS_TRY_ASSIGN(const Scene scene, moment.load());
-    return without_objects(scene);
+Result<ClipFrames> ClipFrames::load(const CompareChoice& choice, gpu::Device& device) {
+    ClipFrames frames;
+    frames.name_ = choice.scene.name + " " + choice.scene.pose.clip;
+    DERMIS_TRY_ASSIGN(const Scene start, choice.scene.load());
+    DERMIS_TRY_ASSIGN(frames.times_s_, clip_times(choice, start));
+    CompareChoice first = choice;
+    first.scene.pose.time_s = frames.times_s_.front();
+    DERMIS_TRY_ASSIGN(Scene scene, first.load_scene());
+    frames.shown_ = std::make_unique<SubjectCase>(SubjectCase{.name = {}, .scene = std::move(scene)});
+    DERMIS_TRY_ASSIGN(
+        Renderer renderer,
+        Renderer::create(device, gpu::embedded_shaders(built_in_catalog().shaders), frames.shown_->scene));
+    frames.renderer_ = std::make_unique<Renderer>(std::move(renderer));
+    return frames;
 }
 
-Result<SubjectCase> clip_frame(const CompareChoice& choice, double time_s, const Scene* first) {
-    CompareChoice moment = choice;
-    moment.scene.pose.time_s = time_s;
-    DERMIS_TRY_ASSIGN(Scene scene, moment.load_scene());
-    if (first) {
-        scene.camera = first->camera;
-        fit_depth_range(scene.camera, scene.bounds_center_mm, scene.bounds_radius_mm);
-        scene.lights = first->lights;
-    }
-    return SubjectCase{
-        .name = fmt::format("{} {} {:.3f} s", choice.scene.name, choice.scene.pose.clip, time_s),
-        .scene = std::move(scene)};
+Result<void> ClipFrames::show(size_t frame) {
+    const double time_s = times_s_[frame];
+    if (shown_->scene.motion.time_s != time_s) DERMIS_TRY(move_scene(time_s, shown_->scene, *renderer_));
+    shown_->name = fmt::format("{} {:.3f} s", name_, time_s);
+    return {};
 }
 
 Result<void> ComparedFrames::add(const SubjectCase& one, double time_s, const Comparison& comparison) {

@@ -1,28 +1,47 @@
 #pragma once
-// Frames of a clip for `dermis compare`: each is a scene of its own, loaded in its pose.
+// Frames of a clip for `dermis compare`: one scene that moves from frame to frame.
 
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "compare_options.h"
 #include "dermis/judge/clip_motion.h"
+#include "dermis/render/renderer.h"
 
 namespace dermis::cli {
 
-/// Times of the frames in the clip. With --fps they follow --time as those of `render`; else they are the
-/// middles of equal parts of the clip from --time to its end. Loads the scene once. Errors: as
-/// SceneChoice::load(), a --time past the end.
-[[nodiscard]] Result<std::vector<double>> clip_times(const CompareChoice& choice);
+/// Times of the frames in the clip of the loaded scene. With --fps they follow its time as those of `render`;
+/// else they are the middles of equal parts of the clip from its time to the end. Errors: a time past the
+/// end.
+[[nodiscard]] Result<std::vector<double>> clip_times(const CompareChoice& choice, const Scene& scene);
 
 /// The frames of --frame-range, or all `count`.
 [[nodiscard]] Result<IndexRange> clip_range(const std::string& frame_range, int count);
 
-/// Camera and lights at a time, for clip_frame().
-[[nodiscard]] Result<Scene> clip_view(const CompareChoice& choice, double time_s);
+/// The scene in the frames of its clip. Camera and lights are those of the first frame, so that the view does
+/// not follow the face.
+class ClipFrames {
+  public:
+    /// Loads the scene in the first frame, complete. The device must outlive the result. Errors: those of
+    /// clip_times(), CompareChoice::load_scene() and Renderer::create().
+    [[nodiscard]] static Result<ClipFrames> load(const CompareChoice& choice, gpu::Device& device);
 
-/// The scene at a time, complete. With `first`, camera and lights are that frame's, so that the view does not
-/// follow the face.
-[[nodiscard]] Result<SubjectCase> clip_frame(const CompareChoice& choice, double time_s, const Scene* first);
+    [[nodiscard]] const std::vector<double>& times_s() const { return times_s_; }
+    /// Moves the scene to a frame. Errors: those of move_scene().
+    [[nodiscard]] Result<void> show(size_t frame);
+    [[nodiscard]] const SubjectCase& shown() const { return *shown_; }
+    [[nodiscard]] Renderer& renderer() { return *renderer_; }
+
+  private:
+    ClipFrames() = default;
+
+    std::string name_;  // of scene and clip
+    std::vector<double> times_s_;
+    std::unique_ptr<SubjectCase> shown_;
+    std::unique_ptr<Renderer> renderer_;  // of the shown scene
+};
 
 /// The frames of a clip that are compared so far.
 struct ComparedFrames {

@@ -61,16 +61,6 @@ Result<Prepared> prepare(const RenderOptions& options) {
     return prepared;
 }
 
-Result<Prepared> prepare_frame(const RenderOptions& options, double after_s, const Scene& first) {
-    RenderOptions moment = options;
-    moment.scene.pose.time_s = moment.scene.pose.time_s.value_or(0) + after_s;
-    DERMIS_TRY_ASSIGN(Prepared posed, prepare(moment));
-    posed.scene.lights = first.lights;
-    posed.scene.camera = first.camera;
-    fit_depth_range(posed.scene.camera, posed.scene.bounds_center_mm, posed.scene.bounds_radius_mm);
-    return posed;
-}
-
 Result<Prepared> prepare_unbaked(const RenderOptions& options) {
     DERMIS_TRY_ASSIGN(const Size size, parse_size(options.size));
     DERMIS_TRY(check_samples(options.samples));

@@ -38,12 +38,6 @@ struct Prepared {
 /// The same, but complete_scene() is still to come.
 [[nodiscard]] Result<Prepared> prepare_unbaked(const RenderOptions& options);
 
-/// prepare() a frame of the options' clip, `after_s` later than their --time. Each frame is a scene of its
-/// own, loaded in its pose; camera and lights are those of the first, so that the view does not follow the
-/// face.
-[[nodiscard]] Result<Prepared> prepare_frame(const RenderOptions& options, double after_s,
-                                             const Scene& first);
-
 /// 1 or 4 a pixel.
 [[nodiscard]] Result<void> check_samples(int samples);
 /// A debug view that the technique has.

@@ -22,7 +22,8 @@ struct OneComparison {
     std::vector<std::string> warnings;
 };
 
-Result<OneComparison> compare_one(gpu::Device& device, const SubjectCase& one,
+// `renderer`: of the scene.
+Result<OneComparison> compare_one(gpu::Device& device, Renderer& renderer, const SubjectCase& one,
                                   const std::vector<Contestant>& contestants, ComparisonSettings settings,
                                   Watch& watch, double from, double share) {
     // The references' first samples, the techniques, the rest of the references.
@@ -30,20 +31,21 @@ Result<OneComparison> compare_one(gpu::Device& device, const SubjectCase& one,
     bool drawn = false;
     const auto report = [&](double done) { watch.report(from + share * done); };
     settings.exact = one.exact;
-    DERMIS_TRY_ASSIGN(Comparison compared,
-                      compare_techniques(device, built_in_catalog(), one.scene, contestants, settings,
-                                         {.reference =
-                                              [&](double done, const std::string&) {
-                                                  report(drawn ? kTechniquesEnd + (1 - kTechniquesEnd) * done
-                                                               : kFirstEnd * done);
-                                              },
-                                          .techniques =
-                                              [&](double done, const std::string&) {
-                                                  drawn = true;
-                                                  report(kFirstEnd + (kTechniquesEnd - kFirstEnd) * done);
-                                              },
-                                          .stop = &watch.stopped(),
-                                          .cancel = &watch.stopped()}));
+    DERMIS_TRY_ASSIGN(
+        Comparison compared,
+        compare_techniques(device, renderer, built_in_catalog(), one.scene, contestants, settings,
+                           {.reference =
+                                [&](double done, const std::string&) {
+                                    report(drawn ? kTechniquesEnd + (1 - kTechniquesEnd) * done
+                                                 : kFirstEnd * done);
+                                },
+                            .techniques =
+                                [&](double done, const std::string&) {
+                                    drawn = true;
+                                    report(kFirstEnd + (kTechniquesEnd - kFirstEnd) * done);
+                                },
+                            .stop = &watch.stopped(),
+                            .cancel = &watch.stopped()}));
     OneComparison made{.comparison = std::move(compared),
                        .reference_effect = {},
                        .json = {},
@@ -65,8 +67,11 @@ Result<std::vector<OneComparison>> compare_all(const cli::CompareChoice& choice,
     std::vector<OneComparison> made;
     const double share = 1 / double(scenes.all.size());
     for (const SubjectCase& one : scenes.all) {
-        Result<OneComparison> compared = compare_one(device->device(), one, contestants, settings, watch,
-                                                     share * double(made.size()), share);
+        DERMIS_TRY_ASSIGN(
+            Renderer renderer,
+            Renderer::create(device->device(), gpu::embedded_shaders(built_in_catalog().shaders), one.scene));
+        Result<OneComparison> compared = compare_one(device->device(), renderer, one, contestants, settings,
+                                                     watch, share * double(made.size()), share);
         if (!compared) return scenes.is_set ? compared.error().within(one.name) : compared.error();
         made.push_back(std::move(*compared));
     }
@@ -83,20 +88,20 @@ struct ClipComparison {
 Result<ClipComparison> compare_frames(const cli::CompareChoice& choice, const ComparisonSettings& settings,
                                       Watch& watch) {
     DERMIS_TRY_ASSIGN(const std::vector<Contestant> contestants, choice.contestants());
-    ClipComparison clip;
-    DERMIS_TRY_ASSIGN(clip.times_s, cli::clip_times(choice));
     const Result<LentDevice> device = lend_device(choice.device);
     if (!device) return device.error();
+    DERMIS_TRY_ASSIGN(cli::ClipFrames frames, cli::ClipFrames::load(choice, device->device()));
+    ClipComparison clip;
+    clip.times_s = frames.times_s();
     cli::ComparedFrames compared;
-    std::optional<Scene> first;
     const double share = 1 / double(clip.times_s.size());
-    for (const double time_s : clip.times_s) {
-        DERMIS_TRY_ASSIGN(const SubjectCase one, cli::clip_frame(choice, time_s, first ? &*first : nullptr));
-        DERMIS_TRY_ASSIGN(OneComparison made, compare_one(device->device(), one, contestants, settings, watch,
-                                                          share * double(clip.frames.size()), share));
-        DERMIS_TRY(compared.add(one, time_s, made.comparison));
+    for (size_t i = 0; i < clip.times_s.size(); ++i) {
+        DERMIS_TRY(frames.show(i));
+        DERMIS_TRY_ASSIGN(OneComparison made,
+                          compare_one(device->device(), frames.renderer(), frames.shown(), contestants,
+                                      settings, watch, share * double(i), share));
+        DERMIS_TRY(compared.add(frames.shown(), clip.times_s[i], made.comparison));
         clip.frames.push_back(std::move(made));
-        if (!first) first = without_objects(one.scene);
     }
     clip.json = cli::clip_json(choice.scene.pose.clip, compared.all, nullptr).dump();
     return clip;
@@ -124,6 +129,7 @@ CompareCall compare_call(const SceneArguments& scene, const std::string& techniq
     choice.techniques = techniques;
     take(choice.size, given, "size");
     take(choice.device, given, "device");
+    take(choice.rest_bakes, given, "rest_bakes");
     take(choice.integrator, given, "integrator");
     take(choice.ambient, given, "ambient");
     take(choice.samples, given, "samples");

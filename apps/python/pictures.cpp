@@ -9,7 +9,7 @@
 #include "kept_device.h"
 #include "module.h"
 #include "reference_options.h"
-#include "render_options.h"
+#include "render_frames.h"
 #include "scene_arguments.h"
 
 namespace dermis::python {
@@ -25,11 +25,7 @@ struct RenderedPicture {
     std::string technique;
 };
 
-Result<RenderedPicture> draw(gpu::Device& device, cli::Prepared& prepared, int bits) {
-    DERMIS_TRY_ASSIGN(
-        Renderer renderer,
-        Renderer::create(device, gpu::embedded_shaders(built_in_catalog().shaders), prepared.scene));
-    prepared.draw.deep = bits == 16;
+Result<RenderedPicture> draw(Renderer& renderer, const cli::Prepared& prepared, int bits) {
     DERMIS_TRY(renderer.draw(*prepared.technique, *prepared.values, prepared.draw));
     Result<Image> linear = linear_picture(renderer, prepared.draw.view);
     if (!linear) return linear.error();
@@ -46,39 +42,39 @@ Result<RenderedPicture> draw(gpu::Device& device, cli::Prepared& prepared, int b
     return picture;
 }
 
-// Frames of the clip; without any, one picture of the pose.
-struct Frames {
-    int count = 0;
-    double fps = 0;
-};
-
-Result<std::vector<RenderedPicture>> draw_all(const cli::RenderOptions& options, Frames frames, int bits,
-                                              Watch& watch) {
-    DERMIS_TRY_ASSIGN(cli::Prepared first, cli::prepare(options));
+// Without a number of frames one picture.
+Result<std::vector<RenderedPicture>> draw_all(const cli::RenderOptions& options,
+                                              const cli::RenderFrames& frames, int bits, Watch& watch) {
+    DERMIS_TRY_ASSIGN(cli::Prepared prepared, cli::prepare(options));
+    prepared.draw.deep = bits == 16;
     const Result<LentDevice> device = lend_device(options.device);
     if (!device) return device.error();
+    DERMIS_TRY_ASSIGN(Renderer renderer,
+                      Renderer::create(device->device(), gpu::embedded_shaders(built_in_catalog().shaders),
+                                       prepared.scene));
+    const Scene start = without_objects(prepared.scene);
     std::vector<RenderedPicture> pictures;
-    const auto add = [&](cli::Prepared& prepared) -> Result<void> {
-        DERMIS_TRY_ASSIGN(RenderedPicture drawn, draw(device->device(), prepared, bits));
+    for (int i = 0; i < frames.count && !watch.stopped(); ++i) {
+        DERMIS_TRY(cli::show_frame(frames, i, start, prepared.scene, renderer));
+        DERMIS_TRY_ASSIGN(RenderedPicture drawn, draw(renderer, prepared, bits));
         pictures.push_back(std::move(drawn));
-        watch.report(double(pictures.size()) / std::max(frames.count, 1));
-        return {};
-    };
-    DERMIS_TRY(add(first));
-    for (int i = 1; i < frames.count && !watch.stopped(); ++i) {
-        DERMIS_TRY_ASSIGN(cli::Prepared posed, cli::prepare_frame(options, i / frames.fps, first.scene));
-        DERMIS_TRY(add(posed));
+        watch.report(double(pictures.size()) / frames.count);
     }
     return pictures;
 }
 
-Frames frames_of(const cli::RenderOptions& options, const py::dict& given) {
-    Frames frames;
+cli::RenderFrames frames_of(const cli::RenderOptions& options, const py::dict& given) {
+    cli::RenderFrames frames;
     take(frames.count, given, "frames");
     take(frames.fps, given, "fps");
+    take(frames.turn_deg, given, "turn");
     check(cli::check_number("--fps", frames.fps, cli::kFpsRange));
-    if (given.contains("frames")) check(cli::check_number("--frames", frames.count, cli::kRenderFramesRange));
-    if ((frames.count > 0) != (frames.fps > 0) || (frames.count > 0 && options.scene.pose.clip.empty()))
+    check(cli::check_number("--turn", frames.turn_deg, cli::kTurnRangeDeg));
+    const bool has_frames = given.contains("frames"), turns = frames.turn_deg != 0, moves = frames.fps > 0;
+    if (has_frames) check(cli::check_number("--frames", frames.count, cli::kRenderFramesRange));
+    if (turns && !has_frames)
+        throw Failure({"turn is the camera's over all frames; give frames: turn=360, frames=96"});
+    if (has_frames != (turns || moves) || (moves && options.scene.pose.clip.empty()))
         throw Failure({"frames of a clip need clip, frames and fps: clip='talk', frames=96, fps=24"});
     return frames;
 }
@@ -94,7 +90,7 @@ std::vector<RenderedPicture> render(const SceneArguments& scene, const std::stri
     take(options.device, given, "device");
     take(options.samples, given, "samples");
     if (bits != 8 && bits != 16) throw Failure({"--bits " + std::to_string(bits) + ": 8 or 16"});
-    const Frames frames = frames_of(options, given);
+    const cli::RenderFrames frames = frames_of(options, given);
     return watched(progress, [&](Watch& watch) { return draw_all(options, frames, bits, watch); });
 }
 

@@ -22,6 +22,17 @@ Result<void> check_grid(const ComparisonSettings& settings) {
                  std::to_string(kMaxImageSide) + "; take fewer, or a smaller picture"};
 }
 
+Result<void> check_comparison(const Scene& scene, const std::vector<Contestant>& contestants,
+                              const ComparisonSettings& settings) {
+    if (contestants.empty() && settings.pictures.empty()) return Error{"no technique to compare"};
+    DERMIS_TRY(check_grid(settings));
+    if (!settings.rest_bakes.empty() && scene.rest_objects.size() != scene.objects.size())
+        return Error{"the scene was loaded without its rest pose (animation.rest_bakes)"};
+    for (const OwnPicture& picture : settings.pictures)
+        DERMIS_TRY(check_own_picture(picture, settings.width, settings.height));
+    return {};
+}
+
 EffectReferenceSettings reference_settings(const ComparisonSettings& settings, Integrator integrator) {
     EffectReferenceSettings wanted{
         .reference = settings.reference, .noise = settings.noise, .samples = settings.samples};
@@ -349,15 +360,17 @@ ComparisonSettings comparison_settings(int width, int height) {
 Result<Comparison> compare_techniques(gpu::Device& device, const Catalog& catalog, const Scene& scene,
                                       const std::vector<Contestant>& contestants,
                                       const ComparisonSettings& settings, const ComparisonHooks& hooks) {
-    if (contestants.empty() && settings.pictures.empty()) return Error{"no technique to compare"};
-    DERMIS_TRY(check_grid(settings));
-    if (!settings.rest_bakes.empty() && scene.rest_objects.size() != scene.objects.size())
-        return Error{"the scene was loaded without its rest pose (animation.rest_bakes)"};
-    for (const OwnPicture& picture : settings.pictures)
-        DERMIS_TRY(check_own_picture(picture, settings.width, settings.height));
+    DERMIS_TRY(check_comparison(scene, contestants, settings));
     // First, as it says at once what it cannot do.
     DERMIS_TRY_ASSIGN(Renderer renderer,
                       Renderer::create(device, gpu::embedded_shaders(catalog.shaders), scene));
+    return compare_techniques(device, renderer, catalog, scene, contestants, settings, hooks);
+}
+
+Result<Comparison> compare_techniques(gpu::Device& device, Renderer& renderer, const Catalog& catalog,
+                                      const Scene& scene, const std::vector<Contestant>& contestants,
+                                      const ComparisonSettings& settings, const ComparisonHooks& hooks) {
+    DERMIS_TRY(check_comparison(scene, contestants, settings));
     Comparison comparison{.device = device.info().name};
     DERMIS_TRY(make_references(scene, settings, hooks, true, comparison));
     if (Result<void> drawn =

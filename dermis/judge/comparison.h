@@ -22,6 +22,7 @@
 #include "dermis/judge/scores.h"
 #include "dermis/judge/technique_cost.h"
 #include "dermis/render/catalog.h"
+#include "dermis/render/renderer.h"
 #include "dermis/scene/subject.h"
 #include "dermis/technique/technique_list.h"
 
@@ -124,6 +125,13 @@ struct ComparisonHooks {
 /// effect is measured from. Errors: whatever make_effect_reference and Renderer say, no skin in sight.
 [[nodiscard]] Result<Comparison> compare_techniques(gpu::Device& device, const Catalog& catalog,
                                                     const Scene& scene,
+                                                    const std::vector<Contestant>& contestants,
+                                                    const ComparisonSettings& settings,
+                                                    const ComparisonHooks& hooks = {});
+/// The same with a renderer of the scene, for several poses of it (render/move_scene.h). Its warnings so far
+/// are among those of the comparison.
+[[nodiscard]] Result<Comparison> compare_techniques(gpu::Device& device, Renderer& renderer,
+                                                    const Catalog& catalog, const Scene& scene,
                                                     const std::vector<Contestant>& contestants,
                                                     const ComparisonSettings& settings,
                                                     const ComparisonHooks& hooks = {});

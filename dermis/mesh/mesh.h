@@ -60,8 +60,9 @@ struct Mesh {
                                   ///< that Dermis bakes (scene/skin_atlas.h); empty: uvs
     std::vector<Vec4> colors_linear;  ///< multiply base colour and opacity
     std::vector<CurvatureTensor> curvatures_per_mm;
-    std::vector<float> occlusions;  ///< ambient visibility, 0 closed in, 1 open
-    std::vector<float> tensions;    ///< of a mesh in a pose (tension.h); empty at rest
+    std::vector<float> occlusions;        ///< ambient visibility, 0 closed in, 1 open
+    std::vector<float> tensions;          ///< of a mesh in a pose (tension.h); empty at rest
+    std::vector<Vec3> rest_positions_mm;  ///< of a mesh in a pose: where its vertices are at rest
     /// Vertex of the mesh file, counted before any was dropped or split. Only of files that have clips or
     /// morph targets; empty where subdivision or displacement has made other vertices.
     std::vector<uint32_t> file_vertices;

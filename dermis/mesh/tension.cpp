@@ -28,9 +28,9 @@ float tension_of(float area, float at_rest) {
 
 }  // namespace
 
-RestAreas rest_areas(const Mesh& rest) {
-    Weld weld = weld_positions(rest.positions_mm);
-    std::vector<float> areas = areas_around(weld.ids, weld.count(), rest.positions_mm, rest.indices);
+RestAreas rest_areas(std::span<const Vec3> rest_positions_mm, std::span<const uint32_t> indices) {
+    Weld weld = weld_positions(rest_positions_mm);
+    std::vector<float> areas = areas_around(weld.ids, weld.count(), rest_positions_mm, indices);
     return {.place = std::move(weld.ids), .areas = std::move(areas)};
 }
 

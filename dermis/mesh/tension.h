@@ -16,7 +16,8 @@ struct RestAreas {
     std::vector<uint32_t> place;  ///< of each vertex; vertices of a seam share one
     std::vector<float> areas;     ///< twice that of the triangles around each place, mm2
 };
-[[nodiscard]] RestAreas rest_areas(const Mesh& rest);
+[[nodiscard]] RestAreas rest_areas(std::span<const Vec3> rest_positions_mm,
+                                   std::span<const uint32_t> indices);
 
 /// ln(area in the pose / area at rest) of the triangles around each vertex: 0 at rest and in rigid motion,
 /// below 0 compressed, above 0 stretched. It is the sum of the logarithms of the two principal stretches, the

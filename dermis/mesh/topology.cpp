@@ -54,6 +54,7 @@ void gather_vertices(Mesh& mesh, std::span<const uint32_t> from) {
     gather(mesh.occlusions, from);
     gather(mesh.colors_linear, from);
     gather(mesh.tensions, from);
+    gather(mesh.rest_positions_mm, from);
     gather(mesh.file_vertices, from);
 }
 
@@ -76,7 +77,7 @@ std::vector<uint32_t> welded_indices(std::span<const uint32_t> indices, const We
     return welded;
 }
 
-void split_vertices(Mesh& mesh, std::span<const uint32_t> group_of_corner) {
+std::vector<uint32_t> split_vertices(Mesh& mesh, std::span<const uint32_t> group_of_corner) {
     const CornerTable table(mesh.indices, mesh.positions_mm.size());
     std::vector<uint32_t> from(mesh.positions_mm.size());
     std::iota(from.begin(), from.end(), 0u);
@@ -95,6 +96,7 @@ void split_vertices(Mesh& mesh, std::span<const uint32_t> group_of_corner) {
         }
     }
     if (from.size() > mesh.positions_mm.size()) gather_vertices(mesh, from);
+    return from;
 }
 
 void drop_unused_vertices(Mesh& mesh) {

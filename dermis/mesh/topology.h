@@ -79,8 +79,9 @@ void collect_spokes(std::span<const uint32_t> corners, std::span<const uint32_t>
 void gather_vertices(Mesh& mesh, std::span<const uint32_t> from);
 
 /// Splits vertices whose corners have different groups. `group_of_corner` has any number for each corner;
-/// corners of a vertex with equal numbers stay one vertex. Copies all attributes.
-void split_vertices(Mesh& mesh, std::span<const uint32_t> group_of_corner);
+/// corners of a vertex with equal numbers stay one vertex. Copies all attributes. Returns the old vertex of
+/// each new one.
+std::vector<uint32_t> split_vertices(Mesh& mesh, std::span<const uint32_t> group_of_corner);
 
 /// Drops unused vertices.
 void drop_unused_vertices(Mesh& mesh);

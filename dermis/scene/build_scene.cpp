@@ -48,7 +48,7 @@ Result<SubjectScene> load_objects(const SceneDescription& description, const Mes
                                  .ignore_missing_materials = description.maps.files.contains("albedo"),
                                  .pose = description.motion.pose()};
     Result<LoadedMesh> loaded = read_mesh(path, options);
-    if (loaded && !options.pose.empty()) DERMIS_TRY(measure_tension(path, options, *loaded));
+    if (loaded) DERMIS_TRY(add_rest_positions(path, options, *loaded));
     if (!loaded) return error_at(description, mesh.file, loaded.error().message);
     scene.warnings.insert(scene.warnings.end(), loaded->warnings.begin(), loaded->warnings.end());
     scene.files.insert(scene.files.end(), loaded->files.begin(), loaded->files.end());
@@ -58,7 +58,8 @@ Result<SubjectScene> load_objects(const SceneDescription& description, const Mes
                             .unit_mm = loaded->unit_mm,
                             .motion = std::move(loaded->motion),
                             .target_weights = std::move(loaded->target_weights),
-                            .file = path});
+                            .file = path,
+                            .subdivision = mesh.subdivision});
     return made;
 }
 
@@ -166,7 +167,12 @@ Result<void> set_up_materials(const SceneDescription& description, const MeshDes
     const bool is_file = !subject_name(mesh.file.text);
     if (is_file) {
         object.parts = parts_of(description, mesh, object.mesh);
+        // At rest, so that the cut is the same in every pose.
+        std::vector<Vec3>& rest_mm = object.mesh.rest_positions_mm;
+        const bool is_posed = !rest_mm.empty();
+        if (is_posed) std::swap(object.mesh.positions_mm, rest_mm);
         cut_out_corneas(object.mesh, object.parts);
+        if (is_posed) std::swap(object.mesh.positions_mm, rest_mm);
         object.classes.clear();
         for (const FoundPart& found : object.parts) object.classes.push_back(class_of(found.part));
         if (const std::string note = parts_note(object); !note.empty() && is_guessed(object.parts))
@@ -213,11 +219,13 @@ Result<SubjectScene> add_objects(const SceneDescription& description, const Mesh
                             .rotation_rad = mesh.rotate_deg * kRadiansPerDegree,
                             .translation_mm = mesh.translate_mm};
         place_mesh(object.mesh, object.placement);
+        if (!object.posed_vertices) measure_tension(object.mesh);
         DERMIS_TRY(set_up_materials(description, mesh, object, scene));
         DERMIS_TRY(apply_displacement(object.mesh));
         if (!subject_name(mesh.file.text))
             std::ranges::move(object_warnings(object), std::back_inserter(scene.warnings));
-        hide_materials(object.mesh, hidden_materials(description, object));
+        object.hidden = hidden_materials(description, object);
+        hide_materials(object.mesh, object.hidden);
         scene.objects.push_back(std::move(object));
     }
     made->objects.clear();
@@ -250,18 +258,10 @@ Result<void> add_rest_pose(const SceneDescription& given, std::span<const Subjec
         if (!subject_name(rest.meshes[i].file.text)) rest.meshes[i].unit_mm = float(scene.objects[i].unit_mm);
     Result<Scene> built = build_scene(rest, subjects);
     if (!built) return built.error();
-    for (size_t i = 0; i < scene.objects.size(); ++i) {
-        const Mesh &posed = scene.objects[i].mesh, &still = built->objects[i].mesh;
-        if (posed.indices == still.indices && posed.positions_mm.size() == still.positions_mm.size())
-            continue;
-        return Error{place + "animation.rest_bakes: '" + scene.objects[i].name + "' has " +
-                     std::to_string(still.triangle_count()) + " triangles at rest and " +
-                     std::to_string(posed.triangle_count()) +
-                     " in its pose, or in another order; only vertices that stay carry bakes along"};
-    }
     scene.rest_objects = std::move(built->objects);
     scene.rest_bakes = *bakes;
-    return {};
+    const Result<void> checked = check_rest_objects(scene);
+    return checked ? checked : Error{place + checked.error().message};
 }
 
 // The profile of a mesh whose skin states one, unless a word chose another; what the file has and a profile

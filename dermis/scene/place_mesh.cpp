@@ -39,7 +39,8 @@ struct Rotation {
 
 void place_mesh(Mesh& mesh, const Placement& placement) {
     const Rotation rotate(placement.rotation_rad);
-    for (Vec3& p : mesh.positions_mm) p = rotate(p * placement.scale) + placement.translation_mm;
+    for (std::vector<Vec3>* positions_mm : {&mesh.positions_mm, &mesh.rest_positions_mm})
+        for (Vec3& p : *positions_mm) p = rotate(p * placement.scale) + placement.translation_mm;
     for (Vec3& n : mesh.normals) n = rotate(n);
     for (Vec4& t : mesh.tangents) {
         const Vec3 turned = rotate({t.x, t.y, t.z});

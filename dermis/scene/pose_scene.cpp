@@ -37,12 +37,26 @@ void move_vertices(Mesh& mesh, const PosedVertices& posed, const SurfaceAtRest& 
     }
 }
 
-Result<MeshPoser> open_file(const SceneObject& object) {
-    DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes, read_file(object.file));
+Result<MeshPoser> open_file(const std::filesystem::path& file, double unit_mm) {
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes, read_file(file));
     const ReadSibling read_sibling = [&](const std::string& path) {
-        return read_file(object.file.parent_path() / utf8_path(path));
+        return read_file(file.parent_path() / utf8_path(path));
     };
-    return MeshPoser::create(bytes, object.file, read_sibling, {.unit_mm = object.unit_mm});
+    return MeshPoser::create(bytes, file, read_sibling, {.unit_mm = unit_mm});
+}
+
+Error changed_file(const std::filesystem::path& file) {
+    return Error{file.string() + ": has other vertices than before; open it again"};
+}
+
+// `positions_mm` count the file's vertices.
+Result<std::vector<Vec3>> positions_of(const Mesh& mesh, std::span<const Vec3> positions_mm,
+                                       const std::filesystem::path& file) {
+    if (!mesh.file_vertices.empty() && positions_mm.size() <= std::ranges::max(mesh.file_vertices))
+        return changed_file(file);
+    std::vector<Vec3> of_mesh;
+    for (const uint32_t from : mesh.file_vertices) of_mesh.push_back(positions_mm[from]);
+    return of_mesh;
 }
 
 // In the scene.
@@ -57,7 +71,7 @@ Result<PosedVertices> vertices_of(const SceneObject& object, const std::optional
     Mesh mesh{.positions_mm = std::move(vertices.positions_mm), .normals = std::move(vertices.normals)};
     place_mesh(mesh, object.placement);
     if (mesh.positions_mm.size() <= std::ranges::max(object.mesh.file_vertices))
-        return Error{object.file.string() + ": has fewer vertices than before; open it again"};
+        return changed_file(object.file);
     return PosedVertices{std::move(mesh.positions_mm), std::move(mesh.normals),
                          std::move(vertices.target_weights)};
 }
@@ -65,10 +79,9 @@ Result<PosedVertices> vertices_of(const SceneObject& object, const std::optional
 // Areas at rest. The object itself may be in any pose.
 Result<RestAreas> areas_at_rest(const SceneObject& object, const std::optional<MeshPoser>& file) {
     DERMIS_TRY_ASSIGN(const PosedVertices vertices, vertices_of(object, file, {}));
-    Mesh rest{.indices = object.mesh.indices};
-    for (const uint32_t from : object.mesh.file_vertices)
-        rest.positions_mm.push_back(vertices.positions_mm[from]);
-    return rest_areas(rest);
+    DERMIS_TRY_ASSIGN(const std::vector<Vec3> rest_mm,
+                      positions_of(object.mesh, vertices.positions_mm, object.file));
+    return rest_areas(rest_mm, object.mesh.indices);
 }
 
 }  // namespace
@@ -101,28 +114,46 @@ Result<RestBakes> parse_rest_bakes(const MotionDescription& motion) {
     return bakes ? bakes : bakes.error().within("animation.rest_bakes");
 }
 
-Result<void> measure_tension(const std::filesystem::path& file, MeshOptions options, LoadedMesh& posed) {
-    if (posed.motion.empty()) return {};
+Result<void> add_rest_positions(const std::filesystem::path& file, MeshOptions options, LoadedMesh& posed) {
+    if (posed.motion.empty() || options.pose.empty()) return {};
+    Mesh& mesh = posed.mesh;
+    if (mesh.file_vertices.size() == mesh.positions_mm.size()) {
+        DERMIS_TRY_ASSIGN(const MeshPoser poser, open_file(file, posed.unit_mm));
+        DERMIS_TRY_ASSIGN(const PosedVertices rest, poser.pose({}));
+        DERMIS_TRY_ASSIGN(mesh.rest_positions_mm, positions_of(mesh, rest.positions_mm, file));
+        return {};
+    }
     options.pose = {};
     options.unit_mm = posed.unit_mm;
-    DERMIS_TRY_ASSIGN(const LoadedMesh rest, read_mesh(file, options));
-    Mesh& mesh = posed.mesh;
+    DERMIS_TRY_ASSIGN(LoadedMesh rest, read_mesh(file, options));
     if (rest.mesh.indices == mesh.indices && rest.mesh.positions_mm.size() == mesh.positions_mm.size())
-        mesh.tensions = compute_tensions(rest_areas(rest.mesh), mesh.positions_mm, mesh.indices);
+        mesh.rest_positions_mm = std::move(rest.mesh.positions_mm);
     else
         posed.warnings.push_back(file.string() +
                                  ": has other triangles at rest, so that its tension is not known");
     return {};
 }
 
+void measure_tension(Mesh& mesh) {
+    if (mesh.rest_positions_mm.empty()) return;
+    mesh.tensions =
+        compute_tensions(rest_areas(mesh.rest_positions_mm, mesh.indices), mesh.positions_mm, mesh.indices);
+}
+
 void pose_subject(SceneObject& object, const Pose& pose) {
-    if (!object.posed_vertices || pose.empty()) return;
+    if (!object.posed_vertices) return;
     Mesh& mesh = object.mesh;
-    const RestAreas areas = rest_areas(mesh);
+    if (!object.made) {
+        Mesh made = mesh;
+        made.materials.clear();
+        object.made = std::make_shared<const Mesh>(std::move(made));
+    }
+    if (pose.empty()) return;
+    mesh.rest_positions_mm = mesh.positions_mm;
     PosedVertices vertices = object.posed_vertices(pose);
     move_vertices(mesh, vertices, at_rest(mesh));
     object.target_weights = std::move(vertices.target_weights);
-    mesh.tensions = compute_tensions(areas, mesh.positions_mm, mesh.indices);
+    measure_tension(mesh);
 }
 
 bool ScenePoser::can_pose(const SceneObject& object) {
@@ -138,7 +169,7 @@ Result<ScenePoser> ScenePoser::create(const Scene& scene) {
         if (!can_pose(object)) continue;
         std::optional<MeshPoser> file;
         if (!object.posed_vertices) {
-            DERMIS_TRY_ASSIGN(MeshPoser opened, open_file(object));
+            DERMIS_TRY_ASSIGN(MeshPoser opened, open_file(object.file, object.unit_mm));
             file = std::move(opened);
         }
         DERMIS_TRY_ASSIGN(RestAreas areas, areas_at_rest(object, file));

@@ -27,13 +27,16 @@ namespace dermis::inline scene {
 /// Of animation.rest_bakes; none where the key is not given. Errors: those of parse_rest_bakes(text).
 [[nodiscard]] Result<RestBakes> parse_rest_bakes(const MotionDescription& motion);
 
-/// Fills the tensions of a mesh that was read in the pose of `options`, which is not empty: reads the file
-/// once more, at rest. A mesh whose triangles differ there gets a warning instead. Errors: the file.
-[[nodiscard]] Result<void> measure_tension(const std::filesystem::path& file, MeshOptions options,
-                                           LoadedMesh& posed);
+/// Fills Mesh::rest_positions_mm of a mesh that was read with `options`, if they have a pose and the file
+/// moves. A subdivided mesh whose triangles differ at rest gets a warning instead. Errors: the file.
+[[nodiscard]] Result<void> add_rest_positions(const std::filesystem::path& file, MeshOptions options,
+                                              LoadedMesh& posed);
+
+/// Fills the tensions of a mesh whose rest_positions_mm are known; others stay as they are.
+void measure_tension(Mesh& mesh);
 
 /// Poses an object that code made (SceneObject::posed_vertices), which is at rest; others and an empty pose
-/// change nothing. Tangents turn with the surface; tensions are measured.
+/// change nothing. Tangents turn with the surface; tensions are measured; SceneObject::made keeps the mesh.
 void pose_subject(SceneObject& object, const Pose& pose);
 
 /// The directions and tensors of an object's vertices in one pose; they turn when the surface turns.

@@ -35,6 +35,19 @@ Result<RestBakes> parse_rest_bakes(std::string_view text) {
     return bakes;
 }
 
+Result<void> check_rest_objects(const Scene& scene) {
+    for (size_t i = 0; i < scene.rest_objects.size(); ++i) {
+        const Mesh &posed = scene.objects[i].mesh, &still = scene.rest_objects[i].mesh;
+        if (posed.indices == still.indices && posed.positions_mm.size() == still.positions_mm.size())
+            continue;
+        return Error{"animation.rest_bakes: '" + scene.objects[i].name + "' has " +
+                     std::to_string(still.triangle_count()) + " triangles at rest and " +
+                     std::to_string(posed.triangle_count()) +
+                     " in its pose, or in another order; only vertices that stay carry bakes along"};
+    }
+    return {};
+}
+
 std::string rest_bakes_text(const RestBakes& bakes) {
     if (bakes == kAllRestBakes) return "all";
     std::vector<std::string> words;

@@ -15,4 +15,7 @@ namespace dermis::inline scene {
 /// The inverse: "normals+gain", "all", "none".
 [[nodiscard]] std::string rest_bakes_text(const RestBakes& bakes);
 
+/// Whether Scene::rest_objects, if there are any, have the vertices and triangles of the objects.
+[[nodiscard]] Result<void> check_rest_objects(const Scene& scene);
+
 }  // namespace dermis::inline scene

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -157,7 +158,13 @@ struct SceneObject {
     Placement placement = {};         ///< of the mesh in the scene
     /// A subject that moves: its vertices in a pose, before the placement.
     std::function<PosedVertices(const Pose&)> posed_vertices = {};
+    /// A subject that moves: its mesh at rest, before the placement, without materials.
+    std::shared_ptr<const Mesh> made = {};
+    int subdivision = 0;            ///< of the mesh file
+    std::vector<bool> hidden = {};  ///< one a material: its triangles are not drawn; empty: all are
 };
+
+struct SkinAtlas;
 
 struct Scene {
     std::string name;
@@ -166,8 +173,9 @@ struct Scene {
     /// triangles and vertices. The reference reads `objects` alone.
     std::vector<SceneObject> rest_objects;
     RestBakes rest_bakes;
-    std::vector<Light> lights;  ///< at least one; exactly one is_key
-    int shadow_map_budget = 3;  ///< lights that cast shadows, at most (kMaxShadowMaps)
+    std::shared_ptr<const SkinAtlas> skin_atlas;  ///< the layout of Mesh::atlas_uvs (scene/skin_atlas.h)
+    std::vector<Light> lights;                    ///< at least one; exactly one is_key
+    int shadow_map_budget = 3;                    ///< lights that cast shadows, at most (kMaxShadowMaps)
     Camera camera;
     Environment environment;
     Skin skin;

@@ -58,7 +58,11 @@ class KeyTable {
     KeyTable& number(Member Target::*member, KeyInfo info) {
         info.kind = KeyKind::number;
         return add(
-            std::move(info), [member](Target& t, const KeyValue& v) { t.*member = float(v.numbers[0]); },
+            std::move(info),
+            [member](Target& t, const KeyValue& v) {
+                using Number = std::conditional_t<std::is_same_v<Member, double>, double, float>;
+                t.*member = Number(v.numbers[0]);
+            },
             [member](const Target& t, KeyValue& v) { return read(t.*member, v.numbers[0]); });
     }
     template <class Member>

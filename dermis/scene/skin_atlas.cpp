@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "dermis/mesh/atlas_layout.h"
+#include "dermis/base/hash.h"
 #include "dermis/mesh/topology.h"
 
 namespace dermis::inline scene {
@@ -17,15 +17,44 @@ std::vector<uint32_t> skin_triangles(const SceneObject& object) {
     return triangles;
 }
 
-void apply(Mesh& mesh, const AtlasPart& part, std::span<const AtlasLayout::Corners> corners) {
+void apply(SceneObject& object, std::span<const uint32_t> triangles,
+           std::span<const AtlasLayout::Corners> corners) {
+    Mesh& mesh = object.mesh;
     std::vector<uint32_t> layer_of_corner(mesh.indices.size(), 0);
     for (size_t t = 0; t < corners.size(); ++t)
-        std::fill_n(layer_of_corner.begin() + 3 * std::ptrdiff_t(part.triangles[t]), 3, corners[t].layer + 1);
-    split_vertices(mesh, layer_of_corner);
+        std::fill_n(layer_of_corner.begin() + 3 * std::ptrdiff_t(triangles[t]), 3, corners[t].layer + 1);
+    const std::vector<uint32_t> from = split_vertices(mesh, layer_of_corner);
+    for (auto& [target, changes] : object.blood_by_target)
+        for (size_t v = changes.size(); v < from.size(); ++v) changes.push_back(changes[from[v]]);
     mesh.atlas_uvs.assign(mesh.positions_mm.size(), Vec2{});
     for (size_t t = 0; t < corners.size(); ++t)
         for (size_t k = 0; k < 3; ++k)
-            mesh.atlas_uvs[mesh.indices[3 * size_t(part.triangles[t]) + k]] = corners[t].uvs[k];
+            mesh.atlas_uvs[mesh.indices[3 * size_t(triangles[t]) + k]] = corners[t].uvs[k];
+}
+
+// What a layout is made of: the triangles and UVs of the file, and the rest shape.
+Mesh rest_shape(const Mesh& mesh) {
+    return {.positions_mm = mesh.rest_positions_mm.empty() ? mesh.positions_mm : mesh.rest_positions_mm,
+            .uvs = mesh.uvs,
+            .indices = mesh.indices,
+            .submeshes = mesh.submeshes};
+}
+
+// By corner, so that vertices that a layout has split do not count.
+std::string key_of(std::span<const AtlasPart> parts) {
+    Hasher hasher;
+    for (const AtlasPart& part : parts) {
+        std::vector<Vec3> positions_mm;
+        std::vector<Vec2> uvs;
+        for (const uint32_t index : part.mesh->indices) {
+            positions_mm.push_back(part.mesh->positions_mm[index]);
+            if (!part.mesh->uvs.empty()) uvs.push_back(part.mesh->uvs[index]);
+        }
+        hasher.add(positions_mm).add(uvs).add(part.triangles);
+        for (const Submesh& submesh : part.mesh->submeshes)
+            hasher.add(submesh.first_index).add(submesh.index_count).add(submesh.material);
+    }
+    return hasher.hex();
 }
 
 // Appends the skin of an object; vertices of other materials are left out.
@@ -90,23 +119,30 @@ SkinParts skin_over_atlas(const Scene& scene) {
 }
 
 void lay_out_skin_atlas(Scene& scene) {
-    std::vector<SceneObject>& laid_out = scene.rest_objects.empty() ? scene.objects : scene.rest_objects;
-    for (SceneObject& object : scene.objects) object.mesh.atlas_uvs.clear();
+    std::vector<Mesh> shapes(scene.objects.size());
     std::vector<AtlasPart> parts;
     std::vector<size_t> numbers;
-    for (size_t i = 0; i < laid_out.size(); ++i) {
-        laid_out[i].mesh.atlas_uvs.clear();
-        laid_out[i].classes = scene.objects[i].classes;
-        AtlasPart part{&laid_out[i].mesh, skin_triangles(laid_out[i])};
-        if (part.triangles.empty()) continue;
-        parts.push_back(std::move(part));
+    for (size_t i = 0; i < scene.objects.size(); ++i) {
+        scene.objects[i].mesh.atlas_uvs.clear();
+        if (!scene.rest_objects.empty()) {
+            scene.rest_objects[i].mesh.atlas_uvs.clear();
+            scene.rest_objects[i].classes = scene.objects[i].classes;
+        }
+        std::vector<uint32_t> triangles = skin_triangles(scene.objects[i]);
+        if (triangles.empty()) continue;
+        shapes[i] = rest_shape(scene.objects[i].mesh);
+        parts.push_back({&shapes[i], std::move(triangles)});
         numbers.push_back(i);
     }
-    const AtlasLayout layout = lay_out_atlas(parts);
+    std::string key = key_of(parts);
+    if (!scene.skin_atlas || scene.skin_atlas->key != key)
+        scene.skin_atlas = std::make_shared<const SkinAtlas>(SkinAtlas{std::move(key), lay_out_atlas(parts)});
+    const AtlasLayout& layout = scene.skin_atlas->layout;
     if (layout.is_as_it_was) return;
     for (size_t i = 0; i < parts.size(); ++i) {
-        apply(laid_out[numbers[i]].mesh, parts[i], layout.parts[i]);
-        if (!scene.rest_objects.empty()) apply(scene.objects[numbers[i]].mesh, parts[i], layout.parts[i]);
+        apply(scene.objects[numbers[i]], parts[i].triangles, layout.parts[i]);
+        if (!scene.rest_objects.empty())
+            apply(scene.rest_objects[numbers[i]], parts[i].triangles, layout.parts[i]);
     }
 }
 

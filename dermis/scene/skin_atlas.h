@@ -2,16 +2,25 @@
 // One atlas for all skin of a scene: where light maps, baked normals and other maps that Dermis makes itself
 // have their texels. mesh/atlas_layout.h describes the layout.
 
+#include <string>
 #include <vector>
 
+#include "dermis/mesh/atlas_layout.h"
 #include "dermis/mesh/uv_seams.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis::inline scene {
 
+/// A layout, and the hash of what it was made of.
+struct SkinAtlas {
+    std::string key;
+    AtlasLayout layout;
+};
+
 /// Fills Mesh::atlas_uvs of objects with skin where the UVs of the file are missing, share texels or leave
 /// 0..1; else leaves it empty. Vertices between layers are split; all attributes stay. Call it again after a
-/// change of classes. Where the scene has its rest pose, the layout is that pose's, for both.
+/// change of classes. The layout is that of the rest shape, so that every pose of a mesh has the same atlas;
+/// Scene::skin_atlas keeps it for the next call.
 void lay_out_skin_atlas(Scene& scene);
 
 /// Positions, triangles and materials of a mesh with atlas_uvs_of() as its UVs, for functions that measure a

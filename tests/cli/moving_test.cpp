@@ -46,12 +46,22 @@ TEST_F(Moving, frames_of_a_clip_do_not_depend_on_how_they_are_split) {
     for (const char* number : {"0", "1", "2"})
         EXPECT_EQ(bytes_of(std::string("all") + number + ".png"),
                   bytes_of(std::string("part") + number + ".png"));
-    // Frame 2 is at 1 s.
-    const ProgramResult still =
-        run("render " + path("skin_and_morph.glb") + " -t lambert --clip move --frames 1 --fps 1 --time 1 " +
-            "--size 32x32 -o " + path("still%d.png"));
-    ASSERT_EQ(still.exit_code, 0) << still.err;
     EXPECT_NE(bytes_of("all0.png"), bytes_of("all1.png"));
+}
+
+TEST_F(Moving, a_frame_of_a_clip_is_the_picture_of_its_pose_to_the_byte) {
+    const std::string common = "render " + path("skin_and_morph.glb") +
+                               " --unit-mm 10 -t wrap[gain=map] --clip move --size 32x32 "
+                               "--camera \"eye_mm=0,0,30 target_mm=0,0,0\" ";
+    const ProgramResult frames = run(common + "--time 0.25 --frames 3 --fps 2 -o " + path("frame%d.png"));
+    ASSERT_EQ(frames.exit_code, 0) << frames.err;
+    for (const int frame : {0, 1, 2}) {
+        const ProgramResult still =
+            run(common + "--time " + std::to_string(0.25 + frame / 2.0) + " -o " + path("still.png"));
+        ASSERT_EQ(still.exit_code, 0) << still.err;
+        EXPECT_TRUE(bytes_of("still.png") == bytes_of("frame" + std::to_string(frame) + ".png")) << frame;
+    }
+    EXPECT_FALSE(bytes_of("frame0.png") == bytes_of("frame1.png"));
 }
 
 TEST_F(Moving, a_posed_mesh_has_every_vertex_in_the_order_of_the_file) {

@@ -35,7 +35,7 @@ template <class Move>
 std::vector<float> tensions_of(const Mesh& rest, const Move& move) {
     std::vector<Vec3> posed_mm;
     for (const Vec3 p : rest.positions_mm) posed_mm.push_back(move(p));
-    return compute_tensions(rest_areas(rest), posed_mm, rest.indices);
+    return compute_tensions(rest_areas(rest.positions_mm, rest.indices), posed_mm, rest.indices);
 }
 
 }  // namespace

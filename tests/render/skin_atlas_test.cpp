@@ -15,7 +15,7 @@ using testing::IsEmpty;
 
 namespace {
 
-class SkinAtlas : public RenderTest {
+class SkinAtlasPicture : public RenderTest {
   protected:
     static inline const DrawSettings kSmall = {
         .width = 128, .height = 128, .view = "diffuse", .shadow_map_size = 1024};
@@ -46,7 +46,7 @@ class SkinAtlas : public RenderTest {
 
 }  // namespace
 
-TEST_F(SkinAtlas, tiles_mirrored_halves_and_eight_materials_look_like_one_atlas) {
+TEST_F(SkinAtlasPicture, tiles_mirrored_halves_and_eight_materials_look_like_one_atlas) {
     Scene clean = bust_without_maps(), without_layout = clean;
     split_into_eight_materials(skin_of(without_layout), clean.bounds_center_mm);
     EXPECT_TRUE(skin_of(clean).mesh.atlas_uvs.empty());
@@ -66,7 +66,7 @@ TEST_F(SkinAtlas, tiles_mirrored_halves_and_eight_materials_look_like_one_atlas)
     EXPECT_GT(error_of(drawn(shared, "texture_space_gaussians"), wanted, lambert), 1.0);
 }
 
-TEST_F(SkinAtlas, skin_without_uvs_scatters_as_with_a_clean_atlas) {
+TEST_F(SkinAtlasPicture, skin_without_uvs_scatters_as_with_a_clean_atlas) {
     Scene clean;
     clean.objects.push_back({.name = "ball", .mesh = make_sphere(12, 96), .classes = {MaterialClass::skin}});
     place_in_studio(clean);
@@ -80,7 +80,7 @@ TEST_F(SkinAtlas, skin_without_uvs_scatters_as_with_a_clean_atlas) {
         EXPECT_LT(error_of(drawn(renderer, id), drawn(of_clean, id), lambert), 0.2) << id;
 }
 
-TEST_F(SkinAtlas, no_skin_is_left_alone) {
+TEST_F(SkinAtlasPicture, no_skin_is_left_alone) {
     Scene scene;
     scene.objects.push_back(
         {.name = "stone", .mesh = make_sphere(20, 16), .classes = {MaterialClass::other}});
@@ -91,7 +91,7 @@ TEST_F(SkinAtlas, no_skin_is_left_alone) {
     EXPECT_THAT(*check_skin_atlas(scene), IsEmpty());
 }
 
-TEST_F(SkinAtlas, only_skin_gets_texels) {
+TEST_F(SkinAtlasPicture, only_skin_gets_texels) {
     Scene scene;
     for (int i = 0; i < 3; ++i)
         scene.objects.push_back({.name = "ball",

@@ -165,17 +165,6 @@ Result<int> run(const CompareOptions& options) {
     return stopped_exit_code();
 }
 
-// Each frame of a clip, in the content of a job.
-Result<void> add_clip_frames(const CompareChoice& choice, std::vector<SubjectCase>& all) {
-    if (choice.frames == 0) return {};
-    DERMIS_TRY_ASSIGN(const std::vector<double> times, clip_times(choice));
-    for (const double time_s : times) {
-        DERMIS_TRY_ASSIGN(SubjectCase one, clip_frame(choice, time_s, nullptr));
-        all.push_back(std::move(one));
-    }
-    return {};
-}
-
 // Ranges of a clip's frames as jobs that compare them; the merge is the whole comparison, whose references
 // are then in the cache.
 JobPlan split_frames(const CompareOptions& options, const Job& whole, int parts) {
@@ -201,7 +190,7 @@ Result<JobPlan> plan(const CompareOptions& options, const std::vector<std::strin
     DERMIS_TRY_ASSIGN(const ComparisonSettings settings, options.choice.settings());
     DERMIS_TRY(options.choice.contestants());
     DERMIS_TRY_ASSIGN(ComparedScenes scenes, scenes_of(options));
-    DERMIS_TRY(add_clip_frames(options.choice, scenes.all));
+    if (options.choice.frames > 0) DERMIS_TRY(clip_times(options.choice, scenes.all[0].scene));
     std::vector<const Scene*> all;
     for (const SubjectCase& one : scenes.all) all.push_back(&one.scene);
     std::vector<std::string> content = words;

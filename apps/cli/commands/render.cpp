@@ -12,6 +12,7 @@
 #include "dermis/render/output.h"
 #include "dermis/scene/scene_words.h"
 #include "job_hash.h"
+#include "render_frames.h"
 #include "render_options.h"
 #include "turntable.h"
 
@@ -22,28 +23,27 @@ struct Options {
     RenderOptions render;
     std::string output = "out/dermis.png", frame_range;
     OutputSettings file;
-    int frames = 1;
-    double turn_deg = 0, fps = 0;  ///< fps 0: the pose stays
+    RenderFrames frames;
     bool timings = false, json = false;
 };
 
 // The frames of --frame-range, or all.
 Result<IndexRange> frames_of(const Options& options) {
     const bool numbered = frame_path(options.output, 0) != options.output;
-    if (options.frames > 1 && !options.timings && !numbered)
-        return Error{"--frames " + std::to_string(options.frames) + " would write " + options.output +
+    if (options.frames.count > 1 && !options.timings && !numbered)
+        return Error{"--frames " + std::to_string(options.frames.count) + " would write " + options.output +
                      " again and again; number them: -o out/%04d.png"};
-    if (options.turn_deg != 0 && options.frames == 1)
+    if (options.frames.turn_deg != 0 && options.frames.count == 1)
         return Error{"--turn has no effect on one picture; add --frames and number them: -o out/%04d.png"};
-    if (options.fps > 0 && (options.render.scene.pose.clip.empty() || !numbered))
+    if (options.frames.fps > 0 && (options.render.scene.pose.clip.empty() || !numbered))
         return Error{
             "--fps is for the numbered frames of a clip: --clip NAME --frames 96 --fps 24 -o out/%04d.png"};
-    if (options.frame_range.empty()) return IndexRange{0, options.frames};
+    if (options.frame_range.empty()) return IndexRange{0, options.frames.count};
     const Result<IndexRange> range = parse_index_range("--frame-range", options.frame_range);
     if (!range) return range;
-    if (!numbered || range->begin >= range->end || range->end > options.frames)
+    if (!numbered || range->begin >= range->end || range->end > options.frames.count)
         return Error{"--frame-range " + options.frame_range + ": not a range of the " +
-                     std::to_string(options.frames) +
+                     std::to_string(options.frames.count) +
                      " numbered frames (--frames, -o out/%04d.png); write BEGIN:END, such as 0:1"};
     return range;
 }
@@ -110,27 +110,23 @@ void print_timings(const gpu::FrameResult& timings, const gpu::Device& device) {
     std::printf("  %-24s %9.3f ms  on %s\n", "frame", timings.frame_ms, device.info().name.c_str());
 }
 
-double turn_rad(const Options& options, int frame, int frames) {
-    return options.turn_deg * 3.14159265358979 / 180 * frame / frames;
-}
-
 Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& prepared,
                                                   const Options& options, IndexRange range) {
     const bool numbered = frame_path(options.output, 0) != options.output;
-    const Camera start = prepared.scene.camera;
+    const Scene start = without_objects(prepared.scene);
     // Timings of a still need a few frames; the first compiles.
-    if (options.timings && options.frames == 1) range.end = 4;
-    const int frames = std::max(options.frames, range.end);
-    const auto draw = [&](int frame) {
-        turn_camera(prepared.scene, start, turn_rad(options, frame, frames));
-        return renderer.draw(*prepared.technique, *prepared.values, prepared.draw);
-    };
+    if (options.timings && options.frames.count == 1 && options.frames.fps == 0) range.end = 4;
+    const int frames = std::max(options.frames.count, range.end);
+    Progress progress("frames", size_t(range.end - range.begin));
     std::vector<gpu::FrameResult> results;
     for (int frame = range.begin; frame < range.end; ++frame) {
-        DERMIS_TRY_ASSIGN(gpu::FrameResult drawn, draw(frame));
+        DERMIS_TRY(show_frame(options.frames, frame, start, prepared.scene, renderer));
+        DERMIS_TRY_ASSIGN(gpu::FrameResult drawn,
+                          renderer.draw(*prepared.technique, *prepared.values, prepared.draw));
         results.push_back(std::move(drawn));
+        progress.advance();
         if (!numbered && frame + 1 < frames) continue;
-        if (numbered && frame >= options.frames) continue;
+        if (numbered && frame >= options.frames.count) continue;
         if (Result<void> written =
                 write_output(renderer, *prepared.technique, *prepared.values, prepared.draw,
                              frame_path(options.output, frame), options.file);
@@ -138,42 +134,6 @@ Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& 
             return written.error();
     }
     return results;
-}
-
-Result<std::vector<gpu::FrameResult>> draw_clip(gpu::Device& device, const Prepared& first,
-                                                const Options& options, IndexRange range,
-                                                std::vector<std::string>& warnings) {
-    std::vector<gpu::FrameResult> results;
-    Progress progress("frames", size_t(range.end - range.begin));
-    for (int frame = range.begin; frame < range.end; ++frame) {
-        DERMIS_TRY_ASSIGN(Prepared posed, prepare_frame(options.render, frame / options.fps, first.scene));
-        posed.draw.deep = first.draw.deep;
-        turn_camera(posed.scene, first.scene.camera, turn_rad(options, frame, options.frames));
-        DERMIS_TRY_ASSIGN(
-            Renderer renderer,
-            Renderer::create(device, gpu::embedded_shaders(built_in_catalog().shaders), posed.scene));
-        DERMIS_TRY_ASSIGN(gpu::FrameResult drawn, renderer.draw(*posed.technique, *posed.values, posed.draw));
-        results.push_back(std::move(drawn));
-        DERMIS_TRY(write_output(renderer, *posed.technique, *posed.values, posed.draw,
-                                frame_path(options.output, frame), options.file));
-        for (const std::string& warning : renderer.warnings())
-            if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
-        progress.advance();
-    }
-    return results;
-}
-
-// The frames of one pose, or of a clip.
-Result<std::vector<gpu::FrameResult>> draw_all(gpu::Device& device, Prepared& prepared,
-                                               const Options& options, IndexRange range,
-                                               std::vector<std::string>& warnings) {
-    if (options.fps > 0) return draw_clip(device, prepared, options, range, warnings);
-    DERMIS_TRY_ASSIGN(
-        Renderer renderer,
-        Renderer::create(device, gpu::embedded_shaders(built_in_catalog().shaders), prepared.scene));
-    Result<std::vector<gpu::FrameResult>> frames = draw_frames(renderer, prepared, options, range);
-    warnings = renderer.warnings();
-    return frames;
 }
 
 Result<int> render(Options options) {
@@ -189,11 +149,13 @@ Result<int> render(Options options) {
     prepared->draw.deep = options.file.png_bits == 16;
     options.file.credit = prepared->scene.credit;
     options.file.description = prepared->scene.name + ", " + prepared->technique->id;
-    std::vector<std::string> warnings;
+    DERMIS_TRY_ASSIGN(
+        Renderer renderer,
+        Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), prepared->scene));
     DERMIS_TRY_ASSIGN(const std::vector<gpu::FrameResult> frames,
-                      draw_all(*device, *prepared, options, range, warnings));
+                      draw_frames(renderer, *prepared, options, range));
 
-    print_warnings(warnings);
+    print_warnings(renderer.warnings());
     const gpu::FrameResult timings = median_timings(frames);
     if (options.json) {
         std::printf("%s\n", to_json(*prepared, options, *device, timings).dump(2).c_str());
@@ -215,10 +177,10 @@ Result<JobPlan> plan(const Options& options, const std::vector<std::string>& wor
     const Result<std::string> hash = hash_of_job({&prepared.scene}, words);
     if (!hash) return hash.error();
     const bool numbered = frame_path(options.output, 0) != options.output;
-    const int count = numbered ? std::min(parts, options.frames) : 1;
+    const int count = numbered ? std::min(parts, options.frames.count) : 1;
     JobPlan plan;
     for (int i = 0; i < count; ++i) {
-        const int begin = options.frames * i / count, end = options.frames * (i + 1) / count;
+        const int begin = options.frames.count * i / count, end = options.frames.count * (i + 1) / count;
         const std::string text = std::to_string(begin) + ":" + std::to_string(end);
         Job job{.name = options.output, .hash = *hash, .words = words};
         if (numbered) {
@@ -249,15 +211,15 @@ void add_render_command(CommandLine& line) {
     command->add_option("--bits", options->file.png_bits, {8, 16}, "bits of a PNG channel: 8 or 16")
         ->capture_default_str();
     command->add_flag("--layers", options->file.layers, "all debug views as layers of the EXR");
-    command->add_option("--frames", options->frames, kRenderFramesRange, "number of frames")
+    command->add_option("--frames", options->frames.count, kRenderFramesRange, "number of frames")
         ->capture_default_str();
     command->add_option("--frame-range", options->frame_range,
                         "BEGIN:END: render only this range of the --frames; file numbers are unchanged");
     command
-        ->add_option("--turn", options->turn_deg, {-1e6, 1e6},
+        ->add_option("--turn", options->frames.turn_deg, kTurnRangeDeg,
                      "angle in degrees that the camera turns over all frames")
         ->capture_default_str();
-    command->add_option("--fps", options->fps, kFpsRange,
+    command->add_option("--fps", options->frames.fps, kFpsRange,
                         "frames in a second of the --clip, from --time on; 0: all frames have one pose");
     command->add_flag("--timings", options->timings,
                       "print the time of each pass (median without the first frame)");
