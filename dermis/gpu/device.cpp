@@ -86,6 +86,7 @@ Result<void> make_submissions(Device::State& state) {
 void take_physical_device(Device::State& state, const PhysicalDevice& device, const DeviceOptions& options) {
     state.info = device.info;
     if (options.pooled_descriptors) state.info.push_descriptors = 0;
+    state.info.storage_buffers = std::min(state.info.storage_buffers, options.most_storage_buffers);
     Context& context = state.context;
     context.physical = device.handle;
     context.properties = device.properties;

@@ -1,6 +1,7 @@
 #pragma once
 // The Vulkan 1.3 device: a GPU when there is one, lavapipe when there is none. No Vulkan type shows here.
 
+#include <climits>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -28,6 +29,8 @@ struct DeviceOptions {
     /// Descriptor sets come from a pool even where VK_KHR_push_descriptor exists: tests of the pool run on
     /// any device.
     bool pooled_descriptors = false;
+    /// Storage buffers that a stage may bind, if the device has more: for tests of smaller devices.
+    int most_storage_buffers = INT_MAX;
     /// Above this number the device destroys pipelines that were idle longest. On a CPU one of a technique
     /// takes some MB.
     size_t most_pipelines = 256;
@@ -40,6 +43,7 @@ struct DeviceInfo {
     std::vector<int> sample_counts;    ///< 1, 2, 4, ...
     std::vector<std::string> missing;  ///< what it lacks to run dermis; empty: it can
     int push_descriptors = 0;  ///< most bindings of a pushed set; larger sets come from a pool, at 0 all
+    int storage_buffers = 0;   ///< most that a stage binds; 4 at least
 };
 
 /// Every Vulkan device, the one that Device::create would take first. Errors: no loader or driver.

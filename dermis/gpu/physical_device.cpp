@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <climits>
 #include <cstring>
 
 #include "dermis/base/text.h"
@@ -82,6 +83,8 @@ void describe(PhysicalDevice& device) {
     device.info.push_descriptors = int(push.maxPushDescriptors);
     const VkPhysicalDeviceLimits& limits = all.properties.limits;
     device.sample_counts = limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts;
+    device.info.storage_buffers = int(std::min<uint32_t>(
+        {limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers, INT_MAX}));
     device.info.name = all.properties.deviceName;
     const std::string detail = driver.driverInfo;
     device.info.driver = std::string(driver.driverName) + " " +

@@ -76,6 +76,11 @@ Result<void> make_layout(Device::State& device, Pipeline& pipeline) {
     if (pipeline.push_constants.size > context.properties.limits.maxPushConstantsSize)
         return Error{fmt::format("wants {} bytes of push constants; {} has {}", pipeline.push_constants.size,
                                  device.info.name, context.properties.limits.maxPushConstantsSize)};
+    const auto storage_buffers =
+        std::ranges::count(pipeline.bindings, BindingKind::storage_buffer, &Binding::kind);
+    if (storage_buffers > device.info.storage_buffers)
+        return Error{fmt::format("binds {} storage buffers; {} binds {} at most", storage_buffers,
+                                 device.info.name, device.info.storage_buffers)};
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (const Binding& binding : pipeline.bindings) {
         bindings.push_back({.binding = uint32_t(bindings.size()),

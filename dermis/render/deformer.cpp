@@ -103,7 +103,8 @@ Result<std::optional<Deformer>> Deformer::create(gpu::Device& device, gpu::Shade
                                                  const Scene& scene, const ScenePoser& poser,
                                                  std::span<const gpu::Geometry* const> geometries) {
     constexpr std::nullopt_t kOnCpu = std::nullopt;
-    if (poser.moves_colors() || scene.rest_bakes.any()) return std::optional<Deformer>(kOnCpu);
+    if (poser.moves_colors() || scene.rest_bakes.any() || device.info().storage_buffers < kStorageBuffers)
+        return std::optional<Deformer>(kOnCpu);
     DERMIS_TRY_ASSIGN(gpu::Executor executor, gpu::Executor::create(device, std::move(shaders)));
     Deformer deformer(std::move(executor));
     for (const SceneObject& object : scene.objects) deformer.still_.push_back(object.target_weights);

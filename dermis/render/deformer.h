@@ -19,9 +19,12 @@ struct DeformArrays;
 
 class Deformer {
   public:
+    /// What its largest pass binds. Vulkan requires 4 of every device.
+    static constexpr int kStorageBuffers = 19;
+
     /// `geometries`: one an object, with all streams of a mesh in a pose. The poser, the device and they must
     /// outlive it. Nothing where only the CPU poses: subjects, bakes carried from the rest pose, colours that
-    /// follow the pose. Errors: the device, a mesh file.
+    /// follow the pose, a device that binds fewer than kStorageBuffers. Errors: the device, a mesh file.
     [[nodiscard]] static Result<std::optional<Deformer>> create(
         gpu::Device& device, gpu::ShaderSource shaders, const Scene& scene, const ScenePoser& poser,
         std::span<const gpu::Geometry* const> geometries);

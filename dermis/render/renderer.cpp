@@ -153,6 +153,10 @@ Result<bool> Renderer::pose_on_device(const ScenePoser& poser, const Pose& pose)
         DERMIS_TRY_ASSIGN(std::optional<Deformer> made,
                           Deformer::create(*device_, shaders_, *scene_, poser, uploaded_->geometries()));
         deformer_.emplace(std::move(made));
+        if (const gpu::DeviceInfo& info = device_->info(); info.storage_buffers < Deformer::kStorageBuffers)
+            warn("the CPU poses the mesh: its pass binds " + std::to_string(Deformer::kStorageBuffers) +
+                 " storage buffers, and " + info.name + " binds " + std::to_string(info.storage_buffers) +
+                 " at most; choose another device with --device");
     }
     if (!*deformer_) return false;
     drop_history();

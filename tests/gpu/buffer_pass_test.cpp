@@ -81,6 +81,24 @@ TEST_F(BufferPassTest, vertices_move_before_the_draws_of_the_same_frame_and_of_o
     }
 }
 
+TEST_F(BufferPassTest, more_buffers_than_the_device_binds_are_an_error) {
+    for (const int most : {3, 2}) {
+        Result<Device> small = Device::create({.validation = true, .most_storage_buffers = most});
+        ASSERT_TRUE(small) << small.error().message;
+        Result<Array> rest = Array::upload(*small, "rest", std::as_bytes(std::span(kTriangle)));
+        ASSERT_TRUE(rest) << rest.error().message;
+        const Geometry mesh = clip_mesh(*small, kTriangle);
+        const Array step = step_of(1);
+        FrameInputs frame = inputs(step, mesh);
+        frame.buffers["rest"].array = &*rest;
+        Result<Executor> executor = Executor::create(*small, basic_shaders({{"move.comp", kMove}}));
+        ASSERT_TRUE(executor) << executor.error().message;
+        const Result<FrameResult> result = executor->run({.passes = {move_pass()}}, frame);
+        EXPECT_EQ(bool(result), most == 3);
+        if (!result) EXPECT_THAT(result.error().message, HasSubstr("binds 3 storage buffers"));
+    }
+}
+
 TEST_F(BufferPassTest, mistakes_name_the_buffer) {
     const Geometry mesh = clip_mesh(device(), kTriangle);
     const Array step = step_of(1);

@@ -220,6 +220,32 @@ TEST_F(DeformerTest, files_of_every_kind_of_motion_are_those_of_the_cpu) {
     EXPECT_EQ(files, 10);
 }
 
+TEST_F(DeformerTest, a_device_that_binds_few_storage_buffers_leaves_the_pose_to_the_cpu_and_says_so) {
+    const Scene scene = loaded(sheet());
+    for (const int most : {Deformer::kStorageBuffers, Deformer::kStorageBuffers - 1, 4}) {
+        Result<gpu::Device> small = gpu::Device::create({.validation = true, .most_storage_buffers = most});
+        ASSERT_TRUE(small) << small.error().message;
+        Result<Renderer> renderer =
+            Renderer::create(*small, gpu::embedded_shaders(built_in_catalog().shaders), scene);
+        const auto poser = ScenePoser::create(scene);
+        ASSERT_TRUE(renderer && poser);
+        const bool suffices = most == Deformer::kStorageBuffers;
+        const Result<bool> posed = renderer->pose_on_device(*poser, {.clip = "nod", .time_s = 1});
+        ASSERT_TRUE(posed) << posed.error().message;
+        EXPECT_EQ(*posed, suffices);
+        (void)renderer->pose_on_device(*poser, {.clip = "nod", .time_s = 1.5});
+        const auto says = testing::ElementsAre(
+            testing::AllOf(testing::HasSubstr("binds 19 storage buffers"),
+                           testing::HasSubstr("binds " + std::to_string(most) + " at most"),
+                           testing::HasSubstr("--device")));
+        if (suffices)
+            EXPECT_THAT(renderer->warnings(), testing::IsEmpty());
+        else
+            EXPECT_THAT(renderer->warnings(), says);
+        EXPECT_THAT(small->messages(), testing::IsEmpty());
+    }
+}
+
 TEST_F(DeformerTest, what_the_device_cannot_pose_is_left_to_the_cpu) {
     EXPECT_FALSE(is_posed_on_device(load("builtin:bust"), {.morph = {{"smile", 1.0f}}}));
     const Pose nod = {.clip = "nod", .time_s = 1};
