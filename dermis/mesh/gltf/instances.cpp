@@ -14,10 +14,15 @@ std::vector<float> weights_of(const JsonView& list) {
     return weights;
 }
 
+Affine scaled(double factor) {
+    return {factor * Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()};
+}
+
 }  // namespace
 
-Instances::Instances(Document& document, double mm_per_unit) : document_(document) {
-    to_mm_.linear *= mm_per_unit;
+Instances::Instances(Document& document, double mm_per_unit) : Instances(document, scaled(mm_per_unit)) {}
+
+Instances::Instances(Document& document, const Affine& to_mm) : document_(document), to_mm_(to_mm) {
     const JsonView materials = document_.view()["materials"];
     for (size_t i = 0; i < materials.size() && !failed(); ++i)
         uv_mappings_.push_back(uv_mapping_of_material(document_, materials[i]));
@@ -35,7 +40,7 @@ std::vector<Instance> Instances::in_pose(const Pose& pose) {
     for (const uint64_t node : tree_.drawn) add_node(node, pose);
     if (!failed() && document_.view()["nodes"].size() == 0)  // a bare mesh library
         for (size_t i = 0; i < document_.view()["meshes"].size(); ++i)
-            add_mesh(i, {.node_name = "", .world = to_mm_, .joints = {}, .morph = {}}, pose);
+            add_mesh(i, {.node = {}, .node_name = "", .world = to_mm_, .joints = {}, .morph = {}}, pose);
     return std::move(instances_);
 }
 
@@ -70,7 +75,8 @@ void Instances::check_size() {
 void Instances::add_node(uint64_t index, const Pose& pose) {
     if (failed()) return;
     const JsonView node = document_.view()["nodes"][size_t(index)];
-    Placement placement{.node_name = node["name"].text(""),
+    Placement placement{.node = index,
+                        .node_name = node["name"].text(""),
                         .world = tree_.world[size_t(index)],
                         .joints = {},
                         .morph = weights_of(node["weights"])};
@@ -103,6 +109,7 @@ void Instances::add_mesh(uint64_t index, const Placement& placement, const Pose&
             return primitives[i].fail("more triangles than dermis loads");
         instances_.push_back({.name = name,
                               .placement = placements_,
+                              .node = placement.node,
                               .source = primitives[i],
                               .primitive = primitive,
                               .material = material,

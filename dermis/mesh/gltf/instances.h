@@ -2,6 +2,7 @@
 // Where the primitives of a glTF file are in a pose. Internal to dermis/mesh.
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <tuple>
@@ -19,9 +20,10 @@ inline constexpr uint32_t kDefaultMaterial = ~0u;
 
 /// A primitive of a node. The pointers stay valid while the Instances live, `joints` until the next pose.
 struct Instance {
-    std::string name;      ///< of its mesh, else of its node
-    size_t placement = 0;  ///< a number that primitives of one node share
-    JsonView source;       ///< of the primitive
+    std::string name;              ///< of its mesh, else of its node
+    size_t placement = 0;          ///< a number that primitives of one node share
+    std::optional<uint64_t> node;  ///< none in a file without nodes
+    JsonView source;               ///< of the primitive
     Primitive* primitive = nullptr;
     uint32_t material = kDefaultMaterial;
     Affine world;
@@ -33,6 +35,8 @@ struct Instance {
 /// left in its messages.
 class Instances {
   public:
+    /// `to_mm` comes after every root.
+    Instances(Document& document, const Affine& to_mm);
     Instances(Document& document, double mm_per_unit);
 
     /// All that the default scene draws, in its order, or all meshes of a file without nodes.
@@ -40,9 +44,13 @@ class Instances {
     /// The weights of the pose that in_pose() took last.
     [[nodiscard]] const TargetWeights& target_weights() const { return target_weights_; }
     [[nodiscard]] const Affine& to_mm() const { return to_mm_; }
+    /// The nodes in that pose, and what it changes of them.
+    [[nodiscard]] const NodeTree& tree() const { return tree_; }
+    [[nodiscard]] const NodePoses& node_poses() const { return node_poses_; }
 
   private:
     struct Placement {
+        std::optional<uint64_t> node;
         std::string node_name;
         Affine world;
         std::span<const Affine> joints;

@@ -11,8 +11,7 @@
 #include "dermis/mesh/gltf/accessor.h"
 #include "dermis/mesh/gltf/animation.h"
 #include "dermis/mesh/gltf/document.h"
-#include "dermis/mesh/gltf/node_tree.h"
-#include "dermis/mesh/gltf/primitive.h"
+#include "dermis/mesh/gltf/instances.h"
 #include "dermis/mesh/normals.h"
 #include "dermis/mesh/rig.h"
 
@@ -70,16 +69,24 @@ class RigReader {
         : document_(document),
           mesh_(mesh),
           pose_(pose),
-          root_(affine_of(root.translation, root.rotation, root.scale)) {
+          instances_(document, affine_of(root.translation, root.rotation, root.scale)) {
         rig_.nodes.push_back(root);
     }
 
     Rig run() {
-        poses_ = sample_clip(document_, pose_);
-        tree_ = read_nodes(document_, root_, poses_);
+        const std::vector<Instance> instances = instances_.in_pose(pose_);
+        if (failed()) return {};
         add_nodes();
         add_skins();
-        for (const uint64_t node : tree_.drawn) add_part(node);
+        const auto of_one_node = [](const Instance& a, const Instance& b) {
+            return a.placement == b.placement;
+        };
+        for (auto first = instances.begin(); first != instances.end();) {
+            const auto end = std::find_if(first, instances.end(),
+                                          [&](const Instance& one) { return !of_one_node(*first, one); });
+            add_part({first, end});
+            first = end;
+        }
         add_clips();
         size_t found = 0;
         for (const RigPart& part : rig_.parts) found += part.mesh.submeshes.size();
@@ -101,7 +108,8 @@ class RigReader {
                 node.children.push_back(uint32_t(child + 1));
                 is_child.at(size_t(child)) = true;  // read_nodes() has checked it
             }
-            const NodePose& pose = poses_[i];
+            const auto posed = instances_.node_poses().find(i);
+            const NodePose pose = posed == instances_.node_poses().end() ? NodePose{} : posed->second;
             if (nodes[i]["matrix"].exists()) node.matrix = nodes[i]["matrix"].numbers<16>({});
             node.translation = pose.translation.value_or(nodes[i]["translation"].numbers<3>({0, 0, 0}));
             node.rotation = pose.rotation.value_or(nodes[i]["rotation"].numbers<4>({0, 0, 0, 1}));
@@ -116,7 +124,7 @@ class RigReader {
         const JsonView skins = document_.view()["skins"];
         for (size_t i = 0; i < skins.size() && !failed(); ++i) {
             const JsonView joints = skins[i]["joints"];
-            joints_.push_back(joint_matrices(document_, i, tree_.world));
+            (void)joint_matrices(document_, i, instances_.tree().world);  // checks the joints
             if (failed()) return;
             RigSkin& skin = rig_.skins.emplace_back();
             const std::vector<Affine> binds = inverse_bind_matrices(document_, skins[i], joints.size());
@@ -143,12 +151,16 @@ class RigReader {
         return add_joint(skin, node, Affine{});
     }
 
-    void add_part(uint64_t index) {
-        if (failed()) return;
-        const JsonView node = document_.view()["nodes"][size_t(index)];
+    // What one node draws.
+    void add_part(std::span<const Instance> instances) {
+        if (failed() || !instances.front().node) return;
+        const auto index = uint32_t(*instances.front().node);
+        const JsonView node = document_.view()["nodes"][index];
         const JsonView source = document_.view()["meshes"][size_t(node["mesh"].integer(0))];
+        std::optional<uint32_t> skin;
+        if (node["skin"].exists()) skin = uint32_t(node["skin"].integer(0));
         const size_t first = next_vertex_;
-        const NodeVertices all = vertices_of(index, node, source);
+        const NodeVertices all = vertices_of(instances, skin, target_names(source));
         next_vertex_ += all.positions.size();
         std::vector<size_t> submeshes;
         for (size_t i = 0; i < mesh_.submeshes.size() && !failed(); ++i) {
@@ -158,52 +170,40 @@ class RigReader {
         }
         if (submeshes.empty()) return;
         RigPart part = part_of(mesh_, submeshes);
-        part.node = uint32_t(index + 1);
-        if (node["skin"].exists()) part.skin = uint32_t(node["skin"].integer(0));
+        part.node = index + 1;
+        part.skin = skin;
         part.mesh.submeshes.front().name = source["name"].text("");
         fill(part, all, first);
-        part.target_weights = weights_of(index, node, source);
+        part.target_weights = instances.front().morph;
         part.target_weights.resize(part.targets.size());
         rig_.parts.push_back(std::move(part));
     }
 
-    std::vector<float> weights_of(uint64_t index, const JsonView& node, const JsonView& source) {
-        std::vector<float> weights = poses_[index].weights;
-        const JsonView list = node["weights"].exists() ? node["weights"] : source["weights"];
-        for (size_t i = weights.size(); i < list.size(); ++i) weights.push_back(float(list[i].number(0)));
-        choose_weights(pose_, source, weights);
-        return weights;
-    }
-
-    NodeVertices vertices_of(uint64_t index, const JsonView& node, const JsonView& source) {
+    NodeVertices vertices_of(std::span<const Instance> instances, std::optional<uint32_t> skin,
+                             std::vector<std::string> targets) {
         NodeVertices all;
-        for (std::string& name : target_names(source)) all.targets.push_back({.name = std::move(name)});
+        for (std::string& name : targets) all.targets.push_back({.name = std::move(name)});
         all.follows.resize(all.targets.size());
-        const JsonView primitives = source["primitives"];
-        const bool skinned = node["skin"].exists();
-        const size_t skin = size_t(node["skin"].integer(0));
-        for (size_t i = 0; i < primitives.size() && !failed(); ++i) {
-            Primitive primitive;
-            const size_t joints = skinned ? joints_.at(skin).size() : 0;
-            if (!read_primitive(document_, primitives[i], {.joint_count = joints}, primitive)) continue;
-            if (primitive.indices.empty()) continue;
+        for (const Instance& instance : instances) {
+            const Primitive& primitive = *instance.primitive;
+            if (primitive.indices.empty() || failed()) continue;
             const size_t count = primitive.positions.size() / 3;
             for (size_t v = 0; v < count; ++v) {
                 all.positions.push_back(vec3_at(primitive.positions, v));
                 all.normals.push_back(vec3_at(primitive.normals, v));
-                all.world.push_back(primitive.influences.per_vertex == 0
-                                        ? tree_.world[size_t(index)]
-                                        : blend(joints_[skin], primitive.influences, v, root_));
-                if (skinned) all.influences.push_back(influences_of(primitive, v, skin, index));
+                all.world.push_back(
+                    primitive.influences.per_vertex == 0
+                        ? instance.world
+                        : blend(instance.joints, primitive.influences, v, instances_.to_mm()));
+                if (skin) all.influences.push_back(influences_of(instance, v, *skin));
             }
-            add_targets(primitives[i]["targets"], count, all);
+            add_targets(instance.source["targets"], count, all);
         }
         return all;
     }
 
-    std::vector<Influence> influences_of(const Primitive& primitive, size_t vertex, size_t skin,
-                                         uint64_t node) {
-        const Influences& from = primitive.influences;
+    std::vector<Influence> influences_of(const Instance& instance, size_t vertex, size_t skin) {
+        const Influences& from = instance.primitive->influences;
         std::vector<Influence> found;
         for (size_t i = vertex * from.per_vertex; i < (vertex + 1) * from.per_vertex; ++i) {
             if (!(from.weights[i] > 0)) continue;
@@ -215,9 +215,10 @@ class RigReader {
         }
         std::ranges::stable_sort(found, std::greater(), &Influence::second);
         if (found.empty())
-            found.emplace_back(joint_of_node(rig_.skins[skin], joints_[skin].size(),
-                                             from.per_vertex == 0 ? uint32_t(node + 1) : 0),
-                               1.0f);
+            found.emplace_back(
+                joint_of_node(rig_.skins[skin], instance.joints.size(),
+                              from.per_vertex == 0 ? uint32_t(instance.node.value_or(0) + 1) : 0),
+                1.0f);
         return found;
     }
 
@@ -315,11 +316,8 @@ class RigReader {
     Document& document_;
     const Mesh& mesh_;
     const Pose& pose_;
-    Affine root_;
-    NodePoses poses_;
-    NodeTree tree_;
-    std::vector<std::vector<Affine>> joints_;  // by skin
-    size_t next_vertex_ = 0;                   // its number in the file
+    Instances instances_;
+    size_t next_vertex_ = 0;  // its number in the file
     Rig rig_;
 };
 
