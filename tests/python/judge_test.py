@@ -86,6 +86,22 @@ class Compare(TestCase):
                          [frame["rows"][1]["rmse"] for frame in printed["frames"]])
         self.assertFalse(numpy.array_equal(clip.frames[0].reference, clip.frames[1].reference))
 
+    def test_bakes_of_the_rest_pose_get_the_command_lines_rows(self):
+        with mock.patch.dict(os.environ, DERMIS_CACHE=str(self.folder / "cache")):
+            result = run_program("compare", "bust", "-t", "wrap", *WHAT, "--clip", "greet", "--frames", 2,
+                                 "--rest-bakes", "occlusion,curvature+occlusion", "--json", "-o", self.folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            bakes = ["occlusion", "curvature+occlusion"]
+            clip = dermis.compare("bust", "wrap", clip="greet", frames=2, rest_bakes=bakes, **SAME)
+            pose = dermis.compare("bust", "wrap", clip="greet", time=clip.times_s[1], rest_bakes="occlusion", **SAME)
+        self.assertEqual(clip.rows, json.loads(result.stdout)["rows"])
+        names = ["wrap", "wrap[rest=occlusion]", "wrap[rest=curvature+occlusion]"]
+        self.assertEqual((clip.frames[1].names, pose.names), (names, names[:2]))
+        out = ("-o", self.folder / "x")
+        for scene, words, option in (("bust", "gian", "gian"), ("unit", "gain", ["gain"])):
+            self.assert_error(self.program_error("compare", scene, "--rest-bakes", words, *out), dermis.compare, scene,
+                              rest_bakes=option)
+
     def test_wrong_frames_are_refused_as_by_the_command_line(self):
         out = ("-o", self.folder / "x")
         for words, options in ((("--frames", 2), {"frames": 2}), (("--fps", 2), {"fps": 2}),

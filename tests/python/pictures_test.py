@@ -73,6 +73,21 @@ class Rendered(TestCase):
         rest = dermis.reference("bust", size=8, integrator="lambert", samples=4)
         self.assertFalse(numpy.array_equal(posed.radiance, rest.radiance))
 
+    def test_a_turn_is_the_command_lines_to_the_byte(self):
+        for words, options in (((), {}), (("--clip", "greet", "--fps", 2), {"clip": "greet", "fps": 2})):
+            result = run_program("render", "bust", "-t", "lambert", "--size", 32, "--turn", 90, "--frames", 3, *words,
+                                 "-o", self.folder / "%d.png")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            pictures = dermis.render("bust", "lambert", size=32, turn=90, frames=3, **options)
+            for i, picture in enumerate(pictures):
+                picture.save(self.folder / "python.png")
+                self.assert_same_bytes(self.folder / f"{i}.png", self.folder / "python.png")
+            self.assertFalse(numpy.array_equal(pictures[0].display, pictures[1].display))
+        self.assert_error("turn is the camera's over all frames; give frames: turn=360, frames=96", dermis.render, "bust",
+                          turn=90)
+        self.assert_error(self.program_error("render", "bust", "--frames", 3, "--turn", 1e7, "-o", self.folder / "%d.png"),
+                          dermis.render, "bust", frames=3, turn=1e7)
+
     def test_frames_without_a_clip_are_refused(self):
         need = "frames of a clip need clip, frames and fps: clip='talk', frames=96, fps=24"
         for wrong in ({"frames": 3}, {"frames": 3, "fps": 24}, {"fps": 24}, {"clip": "greet", "frames": 3}):

@@ -136,6 +136,7 @@ def compare(scene: Path, techniques: str | Iterable[str] | None=None, *, size: S
             integrator: str='both', ambient: str='renderer', samples_per_pixel: int | None=None, noise: float=0.2,
             samples: int=2048, timed_frames: int=5, device: str='', camera: Words=None, light: Words=None, keys: Words=None,
             clip: str='', time: float | None=None, morph: Words=None, frames: int | None=None, fps: float=0,
+            rest_bakes: str | Iterable[str]='',
             progress: Callable[[float], object] | None=None) -> Comparison | list[Comparison] | ClipComparison:
     """Techniques compared with the reference of the same scene, as `dermis compare`.
 
@@ -147,8 +148,9 @@ def compare(scene: Path, techniques: str | Iterable[str] | None=None, *, size: S
     number (4 to 36, by the size). timed_frames: how many are timed. integrator: "walk", "surface", or "both":
     rows have both shares, walk_captured and captured, and the pictures are of walk. The references are kept in
     the cache. clip, time, morph: as in render(). frames: compares so many frames of the clip, evenly over it from
-    time on, or fps of them in a second. Returns a Comparison; of a set of scenes, such as "unit", a list; with
-    frames a ClipComparison.
+    time on, or fps of them in a second. rest_bakes: more rows, with bakes of the rest pose of a mesh that moves:
+    "normals,gain+curvature" or a list of such texts, as --rest-bakes. Returns a Comparison; of a set of scenes,
+    such as "unit", a list; with frames a ClipComparison.
     """
     pictures = dict(pictures or {})
     if pictures and size is None:
@@ -160,6 +162,7 @@ def compare(scene: Path, techniques: str | Iterable[str] | None=None, *, size: S
     options = given(size=None if size is None else size_text(size), integrator=integrator, ambient=ambient,
                     samples_per_pixel=points, noise=noise, samples=whole(samples, "samples", least, most),
                     timed_frames=whole(timed_frames, "timed_frames", least, most), device=device, fps=fps,
+                    rest_bakes=rest_bakes if isinstance(rest_bakes, str) else ",".join(rest_bakes),
                     frames=None if frames is None else whole(frames, "frames", least, most))
     arguments = scene_arguments(scene, keys, camera, light, clip, time, morph)
     if frames is not None:

@@ -75,7 +75,7 @@ class Picture:
 def render(scene: Path='bust', technique: str='', *, settings: Words=None, size: Size='1024x1024', view: str='final',
            samples: int=1, bits: int=8, camera: Words=None, light: Words=None, keys: Words=None,
            clip: str='', time: float | None=None, morph: Words=None, frames: int | None=None, fps: float=0,
-           device: str='', progress: Callable[[float], object] | None=None) -> Picture | list[Picture]:
+           turn: float=0, device: str='', progress: Callable[[float], object] | None=None) -> Picture | list[Picture]:
     """A scene drawn by a technique, as `dermis render`.
 
     scene: name, scene file or mesh file. technique: its id (the scene's, or lambert). settings: {name: value},
@@ -84,12 +84,13 @@ def render(scene: Path='bust', technique: str='', *, settings: Words=None, size:
     value} of --camera, such as {"yaw_deg": 30, "distance_mm": 600}. light: the same of --light. keys: {key:
     value} of --scene, such as {"light.key.intensity": 2}. clip: an animation of the mesh file, and time in it in
     s. morph: {target: weight} of --morph, such as {"jawOpen": 0.6}. Mappings may be the command line's text
-    instead. frames: a list of that many pictures of the clip, fps of them in a second, from time on; camera and
-    lights stay. device: text in the Vulkan device's name.
+    instead. frames: a list of that many pictures of the clip, fps of them in a second, from time on; lights and
+    camera stay. turn: angle in degrees that the camera turns over all frames; without fps the pose stays. device:
+    text in the Vulkan device's name.
     """
     least, most = -2**31, 2**31 - 1
     options = given(size=size_text(size), view=view, samples=whole(samples, "samples", least, most),
-                    bits=whole(bits, "bits", least, most), device=device, fps=fps,
+                    bits=whole(bits, "bits", least, most), device=device, fps=fps, turn=turn,
                     frames=None if frames is None else whole(frames, "frames", least, most))
     drawn = _dermis.render(scene_arguments(scene, keys, camera, light, clip, time, morph), technique,
                            words(settings, "settings"), options, progress)
