@@ -1,6 +1,6 @@
 // 1. Vertices of the file that move together in every pose get a place, and targets changes by blocks of
 // places.
-// 2. Every vertex of the scene's mesh gets the triangles around it.
+// 2. Every vertex of the scene's mesh gets the places around it, in rings.
 
 #include "dermis/render/deformed_mesh.h"
 
@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -77,7 +78,53 @@ std::vector<uint32_t> drawn_corners(const VertexMotion& motion, const Mesh& mesh
 struct FanCorner {
     uint32_t in_file = kHidden, in_scene = kHidden;
     uint32_t kinds = 0;
+    uint32_t next = 0, previous = 0;  // places
+    Vec2 direction, du, dv;           // how UVs change over it (pose_vertices.comp)
 };
+
+// The order in which each triangle follows the one with which it shares an edge, if there is one.
+std::vector<size_t> ring_order(std::span<const FanCorner> fan) {
+    std::vector<size_t> order;
+    std::vector<bool> taken(fan.size());
+    const auto take = [&](size_t i) {
+        taken[i] = true;
+        order.push_back(i);
+    };
+    const auto is_first = [&](size_t i) {
+        return std::ranges::none_of(fan, [&](const FanCorner& one) { return one.previous == fan[i].next; });
+    };
+    const auto follow = [&](size_t i) {
+        for (take(i);;) {
+            const uint32_t place = fan[order.back()].previous;
+            size_t k = 0;
+            while (k < fan.size() && (taken[k] || fan[k].next != place)) ++k;
+            if (k == fan.size()) return;
+            take(k);
+        }
+    };
+    for (size_t i = 0; i < fan.size(); ++i)
+        if (!taken[i] && is_first(i)) follow(i);
+    for (size_t i = 0; i < fan.size(); ++i)
+        if (!taken[i]) follow(i);
+    return order;
+}
+
+// Whether the UVs of the file and of the atlas have one direction over all triangles.
+bool is_along_atlas(std::span<const FanCorner> fan) {
+    constexpr float kSame = 1e-6f;
+    float of_file = 0, of_atlas = 0;
+    for (const FanCorner& corner : fan) {
+        of_file += std::abs(corner.direction.x) + std::abs(corner.direction.y);
+        of_atlas += std::abs(corner.du.x) + std::abs(corner.du.y);
+    }
+    if (!(of_file > 0) || !(of_atlas > 0)) return of_file == of_atlas;
+    const float scale = of_file / of_atlas;
+    return std::ranges::all_of(fan, [&](const FanCorner& corner) {
+        const Vec2 off = corner.direction - corner.du * scale;
+        const float size = std::abs(corner.direction.x) + std::abs(corner.direction.y);
+        return std::abs(off.x) + std::abs(off.y) <= kSame * size;
+    });
+}
 
 class ArrayMaker {
   public:
@@ -89,14 +136,14 @@ class ArrayMaker {
         made_.places = weld_.count();
         made_.vertices = uint32_t(mesh_.positions_mm.size());
         add_places();
-        made_.targets = std::max<uint32_t>(1, uint32_t(motion_.has_normals.size()));
         made_.has_normal_changes = !motion_.normal_changes.empty();
-        add_blocks(
-            "", made_.places, [&](uint32_t place) { return weld_.first[place]; }, motion_.first_change,
+        made_.of_places = add_blocks(
+            "changes", made_.places, [&](uint32_t place) { return weld_.first[place]; }, motion_.first_change,
             motion_.changes);
-        add_blocks(
-            "normal ", made_.vertices, [&](uint32_t v) { return mesh_.file_vertices[v]; },
+        made_.of_vertices = add_blocks(
+            "normal changes", made_.vertices, [&](uint32_t v) { return mesh_.file_vertices[v]; },
             motion_.first_normal_change, motion_.normal_changes);
+        made_.of_vertices.moves_around.resize(made_.of_vertices.firsts.size());
         add_vertices();
         return std::move(made_);
     }
@@ -108,30 +155,39 @@ class ArrayMaker {
     [[nodiscard]] uint32_t place_of(uint32_t vertex) const { return weld_.ids[mesh_.file_vertices[vertex]]; }
 
     void add_places() {
-        Words places, influences;
+        Words places, lists;
         uint32_t count = 0;
         for (const uint32_t v : weld_.first) {
-            places.add(motion_.positions[v], count);
-            for (uint32_t k = motion_.first_influence[v]; k < motion_.first_influence[v + 1]; ++k, ++count)
-                influences.add(motion_.influences[k].matrix, motion_.influences[k].share);
+            const std::span<const VertexMotion::Influence> all =
+                std::span(motion_.influences)
+                    .subspan(motion_.first_influence[v],
+                             motion_.first_influence[v + 1] - motion_.first_influence[v]);
+            if (all.size() == 1 && all[0].share == 1) {
+                influences_.push_back(posing::kOneMatrix | all[0].matrix);
+            } else {
+                influences_.push_back(count);
+                lists.add(uint32_t(all.size()), 0.0f);
+                for (const VertexMotion::Influence& one : all) lists.add(one.matrix, one.share);
+                count += 1 + uint32_t(all.size());
+            }
+            places.add(motion_.positions[v], influences_.back());
         }
-        places.add(Vec3{}, count);
-        put("places", places), put("influences", influences);
+        put("places", places), put("influences", lists);
     }
 
     // The changes of `count` places or vertices, whose lists are those of the file's vertex `file_vertex(i)`.
-    void add_blocks(const std::string& prefix, uint32_t count, const auto& file_vertex,
-                    const std::vector<uint32_t>& first_change,
-                    const std::vector<VertexMotion::Change>& all_changes) {
-        const uint32_t blocks = (count + posing::kPoseBlock - 1) / posing::kPoseBlock;
-        Words firsts, words;
-        firsts.all.assign(size_t(made_.targets) * blocks, posing::kNoBlock);
+    ChangedBlocks add_blocks(const std::string& name, uint32_t count, const auto& file_vertex,
+                             const std::vector<uint32_t>& first_change,
+                             const std::vector<VertexMotion::Change>& all_changes) {
+        ChangedBlocks made = {.blocks = (count + posing::kPoseBlock - 1) / posing::kPoseBlock};
+        made.firsts.assign(motion_.has_normals.size() * made.blocks, ChangedBlocks::kUnchanged);
+        Words words;
         std::vector<Vec3> changes;
         for (uint32_t i = 0; i < count; ++i) {
             const uint32_t v = file_vertex(i);
             for (uint32_t k = first_change[v]; k < first_change[v + 1]; ++k) {
-                uint32_t& first = firsts.all[all_changes[k].weight * blocks + i / posing::kPoseBlock];
-                if (first == posing::kNoBlock) {
+                uint32_t& first = made.firsts[all_changes[k].weight * made.blocks + i / posing::kPoseBlock];
+                if (first == ChangedBlocks::kUnchanged) {
                     first = uint32_t(changes.size());
                     changes.resize(changes.size() + posing::kPoseBlock);
                 }
@@ -139,7 +195,8 @@ class ArrayMaker {
             }
         }
         for (const Vec3 change : changes) words.add(change);
-        put(prefix + "blocks", firsts), put(prefix + "changes", words);
+        put(name, words);
+        return made;
     }
 
     // The set of joined corners of each file's corner, and the corners of each set.
@@ -187,43 +244,73 @@ class ArrayMaker {
             }
             add_vertex(v, beside[v], fan);
         }
-        vertices_.add(0u, corner_count_, 0u, 0.0f, Vec3{}, Vec4{}, Vec3{}, Vec3{});
-        put("vertices", vertices_), put("corners", corners_), put("steps", steps_);
+        vertices_.add(0u, entries_, 0u, 0u, 0u, 0.0f, Vec3{}, Vec4{}, Vec3{}, Vec3{});
+        put("vertices", vertices_), put("rings", rings_), put("directions", directions_);
     }
 
     void add_vertex(uint32_t v, uint32_t beside, std::span<FanCorner> fan) {
-        const uint32_t first = corner_count_, file_vertex = mesh_.file_vertices[v];
+        const uint32_t first = entries_, file_vertex = mesh_.file_vertices[v], place = place_of(v);
         float rest_area = 0;
-        for (FanCorner& corner : fan) rest_area += add_corner(v, corner);
+        for (FanCorner& corner : fan) rest_area += measure_corner(v, corner);
+        const bool along_atlas = is_along_atlas(fan);
+        const uint32_t directions = along_atlas ? posing::kAlongAtlas : uint32_t(directions_.all.size() / 2);
+        add_ring(fan, !along_atlas);
+        note_movers(v, place, fan);
         const SurfaceFrame frame(rest_.normals[v], rest_.directions[v]), axes({0, 0, 1}, {1, 0, 0});
         const Vec4 t = rest_.tangents.empty() ? Vec4{1, 0, 0, 1} : rest_.tangents[v];
         const CurvatureTensor s = rest_.curvatures_per_mm.empty()
                                       ? CurvatureTensor{}
                                       : moved(frame, axes, rest_.curvatures_per_mm[v]);
-        vertices_.add(place_of(v), first, beside, rest_area, motion_.normals[file_vertex],
-                      moved(frame, axes, Vec3{t.x, t.y, t.z}), t.w, s.diagonal, s.mixed);
+        vertices_.add(place, first, influences_[place], directions, beside, rest_area,
+                      motion_.normals[file_vertex], moved(frame, axes, Vec3{t.x, t.y, t.z}), t.w, s.diagonal,
+                      s.mixed);
     }
 
-    // Twice its area at rest, if the scene draws it.
-    float add_corner(uint32_t v, FanCorner& corner) {
+    void add_ring(std::span<const FanCorner> fan, bool with_directions) {
+        size_t last = fan.size();
+        for (size_t i = 0; i < fan.size(); ++i)
+            if (fan[i].kinds & posing::kCornerJoined) last = i;
+        const auto add = [&](uint32_t place, const FanCorner& steps) {
+            rings_.add(place, steps.du.x, steps.du.y, steps.dv.x, steps.dv.y);
+            if (with_directions) directions_.add(steps.direction.x, steps.direction.y);
+            ++entries_;
+        };
+        std::optional<uint32_t> before;
+        for (const size_t i : ring_order(fan)) {
+            if (before != fan[i].next) add(fan[i].next, {});
+            add(fan[i].previous | fan[i].kinds | (i == last ? posing::kCornerLast : 0), fan[i]);
+            before = fan[i].previous;
+        }
+    }
+
+    // The targets that move the places around a vertex.
+    void note_movers(uint32_t v, uint32_t place, std::span<const FanCorner> fan) {
+        const uint32_t block = v / posing::kPoseBlock;
+        const auto note = [&](uint32_t moved) {
+            const uint32_t from = weld_.first[moved];
+            for (uint32_t k = motion_.first_change[from]; k < motion_.first_change[from + 1]; ++k)
+                made_.of_vertices.moves_around[motion_.changes[k].weight * made_.of_vertices.blocks + block] =
+                    true;
+        };
+        note(place);
+        for (const FanCorner& corner : fan) note(corner.next), note(corner.previous);
+    }
+
+    // Returns twice its area at rest, if the scene draws it.
+    float measure_corner(uint32_t v, FanCorner& corner) {
         const auto file_vertex = [&](uint32_t (*step)(uint32_t)) {
             return corner.in_file != kHidden ? motion_.indices[step(corner.in_file)]
                                              : mesh_.file_vertices[mesh_.indices[step(corner.in_scene)]];
         };
         const uint32_t next = file_vertex(next_corner), previous = file_vertex(previous_corner);
-        Vec2 direction, du, dv;
-        if (corner.kinds & posing::kCornerDrawn) {
-            if (same_uvs(uvs_.direction, v, corner.in_scene))
-                take_steps(mesh_.uvs, corner.in_scene, direction, dv);
-            dv = {};
-            if (same_uvs(uvs_.atlas, v, corner.in_scene) &&
-                take_steps(atlas_uvs_of(mesh_), corner.in_scene, du, dv))
-                corner.kinds |= posing::kCornerInAtlas;
-        }
-        corners_.add(weld_.ids[next] | corner.kinds, weld_.ids[previous]);
-        steps_.add(direction.x, direction.y, du.x, du.y, dv.x, dv.y);
-        ++corner_count_;
+        corner.next = weld_.ids[next], corner.previous = weld_.ids[previous];
         if (!(corner.kinds & posing::kCornerDrawn)) return 0;
+        Vec2 unused;
+        if (same_uvs(uvs_.direction, v, corner.in_scene))
+            take_steps(mesh_.uvs, corner.in_scene, corner.direction, unused);
+        if (same_uvs(uvs_.atlas, v, corner.in_scene) &&
+            take_steps(atlas_uvs_of(mesh_), corner.in_scene, corner.du, corner.dv))
+            corner.kinds |= posing::kCornerInAtlas;
         const Vec3 p = at_rest_mm_[mesh_.file_vertices[v]];
         return length(cross(at_rest_mm_[next] - p, at_rest_mm_[previous] - p));
     }
@@ -253,12 +340,33 @@ class ArrayMaker {
     struct {
         std::vector<uint32_t> direction, atlas;
     } uvs_;
-    Words vertices_, corners_, steps_;
-    uint32_t corner_count_ = 0;
+    Words vertices_, rings_, directions_;
+    std::vector<uint32_t> influences_;  // by place, as shaders have them
+    uint32_t entries_ = 0;              // of the rings
     DeformArrays made_;
 };
 
 }  // namespace
+
+std::vector<uint32_t> active_targets(const ChangedBlocks& changed, std::span<const float> weights,
+                                     std::span<const uint8_t> has_normals) {
+    Words words, lists;
+    const uint32_t headers = changed.blocks + 1;
+    for (uint32_t block = 0; block < headers; ++block) {
+        const auto first = uint32_t(headers + lists.all.size() / 3);
+        bool turns = false;
+        for (uint32_t i = 0; i < weights.size() && block < changed.blocks; ++i) {
+            if (weights[i] == 0) continue;
+            const size_t at = size_t(i) * changed.blocks + block;
+            turns = turns || (!changed.moves_around.empty() && changed.moves_around[at] && !has_normals[i]);
+            if (changed.firsts[at] == ChangedBlocks::kUnchanged) continue;
+            lists.add(changed.firsts[at], weights[i], has_normals[i] ? weights[i] : 0.0f);
+        }
+        words.add(first, turns ? 1.0f : 0.0f, 0.0f);
+    }
+    words.all.insert(words.all.end(), lists.all.begin(), lists.all.end());
+    return std::move(words.all);
+}
 
 DeformArrays deform_arrays(const VertexMotion& motion, const Mesh& mesh, const SurfaceAtRest& rest,
                            std::span<const Vec3> at_rest_mm) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <utility>
 
-#include "dermis/render/deformed_mesh.h"
 #include "dermis/scene/place_mesh.h"
 
 namespace dermis::inline render {
@@ -14,7 +13,7 @@ namespace {
 std::vector<std::byte> bytes_of(const auto& values) {
     const auto view = std::as_bytes(std::span(values));
     std::vector<std::byte> bytes(view.begin(), view.end());
-    constexpr size_t kElement = 24;  // a multiple of the size of an active target
+    constexpr size_t kElement = 24;  // of any of them, at least
     if (bytes.empty()) bytes.resize(kElement);
     return bytes;
 }
@@ -33,7 +32,6 @@ Pass pose_pass(const std::string& mesh, const std::string& what, uint32_t thread
 std::vector<Pass> passes_of(const std::string& mesh, const DeformArrays& made) {
     std::vector<Pass> passes = {pose_pass(mesh, "places", made.places,
                                           {{"Places", "places"},
-                                           {"Blocks", "blocks"},
                                            {"Changes", "changes"},
                                            {"Influences", "influences"},
                                            {"Targets", "targets"},
@@ -41,13 +39,11 @@ std::vector<Pass> passes_of(const std::string& mesh, const DeformArrays& made) {
                                            {"Positions", "positions"},
                                            {"Unmorphed", "unmorphed"}}),
                                 pose_pass(mesh, "vertices", made.vertices,
-                                          {{"NormalBlocks", "normal blocks"},
-                                           {"NormalChanges", "normal changes"},
-                                           {"Targets", "targets"},
+                                          {{"NormalChanges", "normal changes"},
+                                           {"Targets", "normal targets"},
                                            {"Vertices", "vertices"},
-                                           {"Corners", "corners"},
-                                           {"Steps", "steps"},
-                                           {"Places", "places"},
+                                           {"Rings", "rings"},
+                                           {"Directions", "directions"},
                                            {"Influences", "influences"},
                                            {"Matrices", "matrices"},
                                            {"Positions", "positions"},
@@ -62,20 +58,6 @@ std::vector<Pass> passes_of(const std::string& mesh, const DeformArrays& made) {
                                            {"TensionStream", "tension"}})};
     passes.back().constants = {{"has_normal_changes", int32_t(made.has_normal_changes)}};
     return passes;
-}
-
-// As shaders/renderer/pose.glsl has it.
-struct ActiveTarget {
-    uint32_t target = 0;
-    float weight = 0, weight_before = 0;
-};
-
-std::vector<ActiveTarget> active_targets(std::span<const float> weights,
-                                         std::span<const uint8_t> has_normals) {
-    std::vector<ActiveTarget> active;
-    for (uint32_t i = 0; i < weights.size(); ++i)
-        if (weights[i] != 0) active.push_back({i, weights[i], has_normals[i] ? weights[i] : 0});
-    return active;
 }
 
 // 12 numbers each, after the placement.
@@ -115,15 +97,15 @@ Result<std::optional<Deformer>> Deformer::create(gpu::Device& device, gpu::Shade
         DERMIS_TRY_ASSIGN(PosedVertices at_rest, posed.file->pose({}));
         Mesh placed{.positions_mm = std::move(at_rest.positions_mm)};
         place_mesh(placed, object.placement);
-        const DeformArrays made = deform_arrays(motion, object.mesh, posed.rest, placed.positions_mm);
-        DERMIS_TRY(deformer.add(device, posed, object.placement, *geometries[posed.object], made,
+        DeformArrays made = deform_arrays(motion, object.mesh, posed.rest, placed.positions_mm);
+        DERMIS_TRY(deformer.add(device, posed, object.placement, *geometries[posed.object], std::move(made),
                                 std::move(motion.has_normals)));
     }
     return std::optional<Deformer>(std::move(deformer));
 }
 
 Result<void> Deformer::add(gpu::Device& device, const ScenePoser::Posed& posed, const Placement& placement,
-                           const gpu::Geometry& geometry, const DeformArrays& made,
+                           const gpu::Geometry& geometry, DeformArrays made,
                            std::vector<uint8_t> has_normals) {
     DeformedMesh mesh{.poser = &*posed.file,
                       .object = posed.object,
@@ -140,6 +122,7 @@ Result<void> Deformer::add(gpu::Device& device, const ScenePoser::Posed& posed, 
     // What one pass writes for the next.
     for (const char* name : {"positions", "unmorphed"}) DERMIS_TRY(put(name, std::vector<Vec3>(made.places)));
     std::ranges::move(passes_of(mesh.name, made), std::back_inserter(list_.passes));
+    mesh.of_places = std::move(made.of_places), mesh.of_vertices = std::move(made.of_vertices);
     meshes_.push_back(std::move(mesh));
     return {};
 }
@@ -148,7 +131,7 @@ Result<std::vector<TargetWeights>> Deformer::pose(const Pose& pose) {
     std::vector<TargetWeights> weights = still_;
     gpu::FrameInputs inputs = {.width = 1, .height = 1};
     std::vector<gpu::Array> streamed;
-    streamed.reserve(2 * meshes_.size());
+    streamed.reserve(3 * meshes_.size());
     for (const DeformedMesh& mesh : meshes_) {
         for (const auto& [name, array] : mesh.arrays) inputs.buffers[mesh.name + name] = {.array = &array};
         for (const char* stream : {"position_mm", "normal", "tangent", "curvature_diagonal_per_mm",
@@ -159,7 +142,8 @@ Result<std::vector<TargetWeights>> Deformer::pose(const Pose& pose) {
             streamed.push_back(gpu::Array::streamed(bytes_of(values)));
             inputs.buffers[mesh.name + name] = {.array = &streamed.back()};
         };
-        stream("targets", active_targets(state.weights, mesh.has_normals));
+        stream("targets", active_targets(mesh.of_places, state.weights, mesh.has_normals));
+        stream("normal targets", active_targets(mesh.of_vertices, state.weights, mesh.has_normals));
         stream("matrices", placed_matrices(state, mesh.placement));
         weights[mesh.object] = std::move(state.target_weights);
     }

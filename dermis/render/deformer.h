@@ -10,17 +10,16 @@
 #include <vector>
 
 #include "dermis/gpu/executor.h"
+#include "dermis/render/deformed_mesh.h"
 #include "dermis/scene/pose_scene.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis::inline render {
 
-struct DeformArrays;
-
 class Deformer {
   public:
     /// What its largest pass binds. Vulkan requires 4 of every device.
-    static constexpr int kStorageBuffers = 19;
+    static constexpr int kStorageBuffers = 17;
 
     /// `geometries`: one an object, with all streams of a mesh in a pose. The poser, the device and they must
     /// outlive it. Nothing where only the CPU poses: subjects, bakes carried from the rest pose, colours that
@@ -50,13 +49,13 @@ class Deformer {
         const gpu::Geometry* geometry = nullptr;
         std::string name;                  ///< precedes the names of its buffers
         std::vector<uint8_t> has_normals;  ///< VertexMotion::has_normals
+        ChangedBlocks of_places, of_vertices;
         std::map<std::string, gpu::Array> arrays;
     };
 
     explicit Deformer(gpu::Executor executor) : executor_(std::move(executor)) {}
     Result<void> add(gpu::Device& device, const ScenePoser::Posed& posed, const Placement& placement,
-                     const gpu::Geometry& geometry, const DeformArrays& made,
-                     std::vector<uint8_t> has_normals);
+                     const gpu::Geometry& geometry, DeformArrays made, std::vector<uint8_t> has_normals);
 
     gpu::Executor executor_;
     std::vector<TargetWeights> still_;  // of each object as loaded, for those that no pose moves

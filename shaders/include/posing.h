@@ -25,13 +25,19 @@ DERMIS_CONSTANT float kMostTension = 4.0f;
 
 // Compute passes of posing: places of a block, threads of a group.
 DERMIS_CONSTANT uint kPoseBlock = 64u;
-DERMIS_CONSTANT uint kNoBlock = 0xFFFFFFFFu;
-// What a triangle at a vertex counts for, in the top bits of an index: the vertex's normal; its tension; UVs
-// of the atlas there. UVs that it does not count for have steps of 0.
+// What the triangle between the places of two entries of a ring counts for, in the top bits of the later one:
+// the vertex's normal; its tension; UVs of the atlas there. UVs that it does not count for have steps of 0.
+// An entry without these bits begins a ring. One has the last normal that counts.
 DERMIS_CONSTANT uint kCornerJoined = 0x80000000u;
 DERMIS_CONSTANT uint kCornerDrawn = 0x40000000u;
 DERMIS_CONSTANT uint kCornerInAtlas = 0x20000000u;
 DERMIS_CONSTANT uint kCornerKinds = 0xE0000000u;
+DERMIS_CONSTANT uint kCornerLast = 0x10000000u;
+DERMIS_CONSTANT uint kRingPlace = 0x0FFFFFFFu;
+// Influences that are one matrix alone have its number, with this bit.
+DERMIS_CONSTANT uint kOneMatrix = 0x80000000u;
+// A vertex whose dP/du of the file's UVs is along that of the atlas.
+DERMIS_CONSTANT uint kAlongAtlas = 0xFFFFFFFFu;
 
 // `v` turned by the smallest rotation from one unit vector to another, which are not opposite (Moller and
 // Hughes 1999, "Efficiently Building a Matrix to Rotate One Vector to Another").

@@ -7,15 +7,28 @@
 
 layout(constant_id = 0) const int has_normal_changes = 0;
 
-layout(scalar) readonly buffer NormalBlocks { uint first_normal_changes[]; };  // by target, then block of vertices
+struct MovingVertex {
+    uint place;
+    uint first_entry;  // of its rings; that of the next vertex ends them
+    uint influences;   // as those of a place
+    uint directions;   // kAlongAtlas, or where those of its entries begin
+    uint beside;       // a place that gives the frame a direction where the UVs have no area
+    float rest_area;   // of the triangles around, at rest, twice, mm^2
+    vec3 normal;       // of the file, in the space of its primitive; 0: none
+    vec4 tangent;      // in the frame at rest, w as the mesh has it
+    vec3 curvature_diagonal_per_mm, curvature_mixed_per_mm;  // in the frame at rest
+};
+// A place around a vertex, in the order of the triangles. With the entry before it, it makes a triangle, whose dP/du of the atlas is
+// edge_1 * du.x + edge_2 * du.y: edges to the place before and to its own.
+struct RingEntry {
+    uint place;  // and kinds
+    vec2 du, dv;
+};
+
 layout(scalar) readonly buffer NormalChanges { vec3 normal_changes[]; };
-layout(scalar) readonly buffer Targets { ActiveTarget targets[]; };
 layout(scalar) readonly buffer Vertices { MovingVertex vertices[]; };
-layout(scalar) readonly buffer Corners { Corner corners[]; };
-layout(scalar) readonly buffer Steps { CornerSteps steps[]; };
-layout(scalar) readonly buffer Places { Place places[]; };
-layout(scalar) readonly buffer Influences { Influence influences[]; };
-layout(scalar) readonly buffer Matrices { vec4 rows[]; };
+layout(scalar) readonly buffer Rings { RingEntry entries[]; };
+layout(scalar) readonly buffer Directions { vec2 directions[]; };  // du of the file's UVs
 layout(scalar) readonly buffer Positions { vec3 positions_mm[]; };
 layout(scalar) readonly buffer Unmorphed { vec3 unmorphed_mm[]; };
 layout(scalar) writeonly buffer PositionStream { vec3 position_stream[]; };
@@ -29,9 +42,9 @@ layout(scalar) writeonly buffer TensionStream { float tension_stream[]; };
 
 // Sums over the triangles around a vertex.
 struct Around {
-    vec3 normal_before, normal_after;  // face normals weighted by angle (dermis/mesh/normals.h), at the end unit
     vec3 direction, du, dv;            // weighted by area (dermis/mesh/uv_report.h)
     float uv_area, area;               // twice
+    vec3 normal_before, normal_after;  // face normals weighted by angle (dermis/mesh/normals.h), at the end unit
 };
 
 // The face normal between two edges times their angle.
@@ -41,27 +54,38 @@ vec3 weighted_normal(vec3 a, vec3 b) {
     return size > 0.0 ? n / size * atan(size, dot(a, b)) : vec3(0.0);
 }
 
-Around walk_around(uint place, uint first, uint end) {
-    Around sum = Around(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
-    vec3 p = positions_mm[place], q = unmorphed_mm[place], last_before = vec3(0.0), last_after = vec3(0.0);
-    for (uint k = first; k < end; ++k) {
-        Corner corner = corners[k];
-        uint kind = corner.next & kCornerKinds, next = corner.next & ~kCornerKinds, previous = corner.previous;
-        vec3 edge_1 = positions_mm[next] - p, edge_2 = positions_mm[previous] - p;
-        if ((kind & kCornerJoined) != 0) {
-            last_before = weighted_normal(unmorphed_mm[next] - q, unmorphed_mm[previous] - q);
-            last_after = weighted_normal(edge_1, edge_2);
-            sum.normal_before += last_before;
-            sum.normal_after += last_after;
+Around walk_around(MovingVertex vertex, vec3 p, uint end, bool with_normals) {
+    Around sum = Around(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(0.0), vec3(0.0));
+    vec3 q = unmorphed_mm[vertex.place], last_before = vec3(0.0), last_after = vec3(0.0);
+    vec3 edge_1 = vec3(0.0), before_1 = vec3(0.0);
+    for (uint k = vertex.first_entry; k < end; ++k) {
+        uint entry = entries[k].place, place = entry & kRingPlace;
+        vec3 edge_2 = positions_mm[place] - p;
+        if (with_normals) {
+            vec3 before_2 = unmorphed_mm[place] - q;
+            if ((entry & kCornerJoined) != 0) {
+                vec3 before = weighted_normal(before_1, before_2), after = weighted_normal(edge_1, edge_2);
+                sum.normal_before += before;
+                sum.normal_after += after;
+                if ((entry & kCornerLast) != 0) last_before = before, last_after = after;
+            }
+            before_1 = before_2;
         }
-        float area = length(cross(edge_1, edge_2));
-        CornerSteps step = steps[k];
-        sum.area += (kind & kCornerDrawn) != 0 ? area : 0.0;
-        sum.direction += area * (edge_1 * step.direction.x + edge_2 * step.direction.y);
-        sum.du += area * (edge_1 * step.du.x + edge_2 * step.du.y);
-        sum.dv += area * (edge_1 * step.dv.x + edge_2 * step.dv.y);
-        sum.uv_area += (kind & kCornerInAtlas) != 0 ? area : 0.0;
+        if ((entry & kCornerDrawn) != 0) {
+            float area = length(cross(edge_1, edge_2));
+            vec2 du = entries[k].du, dv = entries[k].dv;
+            sum.area += area;
+            sum.du += area * (edge_1 * du.x + edge_2 * du.y);
+            sum.dv += area * (edge_1 * dv.x + edge_2 * dv.y);
+            sum.uv_area += (entry & kCornerInAtlas) != 0 ? area : 0.0;
+            if (vertex.directions != kAlongAtlas) {
+                vec2 step = directions[vertex.directions + k - vertex.first_entry];
+                sum.direction += area * (edge_1 * step.x + edge_2 * step.y);
+            }
+        }
+        edge_1 = edge_2;
     }
+    if (vertex.directions == kAlongAtlas) sum.direction = sum.du;
     if (length(sum.normal_before) < kShortestNormalSum) sum.normal_before = last_before;
     if (length(sum.normal_after) < kShortestNormalSum) sum.normal_after = last_after;
     sum.normal_before = unit(sum.normal_before);
@@ -70,35 +94,26 @@ Around walk_around(uint place, uint first, uint end) {
 }
 
 // By the cofactors of the blended matrix: the inverse transpose up to a positive factor.
-vec3 skinned_normal(uint place, vec3 n) {
-    vec3 x = vec3(0.0), y = vec3(0.0), z = vec3(0.0);
-    uint end = places[place + 1].first_influence;
-    for (uint k = places[place].first_influence; k < end; ++k) {
-        uint row = 3 * influences[k].matrix;
-        float share = influences[k].share;
-        x += share * rows[row].xyz;
-        y += share * rows[row + 1].xyz;
-        z += share * rows[row + 2].xyz;
-    }
-    vec3 yz = cross(y, z);
+vec3 skinned_normal(uint list, vec3 n) {
+    Blended to_mm = blended(list);
+    vec3 x = to_mm.x.xyz, y = to_mm.y.xyz, z = to_mm.z.xyz, yz = cross(y, z);
     return unit(vec3(dot(yz, n), dot(cross(z, x), n), dot(cross(x, y), n)) * sign(dot(x, yz)));
 }
 
 vec3 morphed_normal(vec3 n) {
-    uint blocks = (position_stream.length() + kPoseBlock - 1) / kPoseBlock;
-    for (uint k = 0; k < targets.length(); ++k) {
-        uint first = first_normal_changes[targets[k].target * blocks + gl_WorkGroupID.x];
-        if (first != kNoBlock) n += targets[k].weight * normal_changes[first + gl_LocalInvocationID.x];
-    }
+    uint end = targets[gl_WorkGroupID.x + 1].first;
+    for (uint k = targets[gl_WorkGroupID.x].first; k < end; ++k)
+        n += targets[k].weight * normal_changes[targets[k].first + gl_LocalInvocationID.x];
     return n;
 }
 
-vec3 posed_normal(MovingVertex vertex, Around around) {
-    vec3 n = vertex.normal;
-    if (has_normal_changes != 0) n = morphed_normal(n);
-    n = skinned_normal(vertex.place, n);
-    if (dot(n, n) < kLeastNormalSquared)
-        return around.normal_after == vec3(0.0) ? vec3(0.0, 1.0, 0.0) : around.normal_after;
+bool is_missing(vec3 n) {
+    return dot(n, n) < kLeastNormalSquared;
+}
+
+// `n`: of the file, skinned.
+vec3 turned_normal(vec3 n, Around around) {
+    if (is_missing(n)) return around.normal_after == vec3(0.0) ? vec3(0.0, 1.0, 0.0) : around.normal_after;
     if (around.normal_before == around.normal_after) return n;
     if (dot(around.normal_before, around.normal_after) < kOppositeNormals) return n;
     return unit(turned(around.normal_before, around.normal_after, n));
@@ -113,8 +128,14 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= position_stream.length()) return;
     MovingVertex vertex = vertices[i];
-    Around around = walk_around(vertex.place, vertex.first_corner, vertices[i + 1].first_corner);
-    vec3 p = positions_mm[vertex.place], n = posed_normal(vertex, around), direction = around.direction;
+    uint end = vertices[i + 1].first_entry;
+    vec3 p = positions_mm[vertex.place];
+    vec3 n = vertex.normal;
+    if (has_normal_changes != 0) n = morphed_normal(n);
+    n = skinned_normal(vertex.influences, n);
+    Around around = walk_around(vertex, p, end, is_missing(n) || targets[gl_WorkGroupID.x].weight != 0.0);
+    n = turned_normal(n, around);
+    vec3 direction = around.direction;
     if (direction == vec3(0.0)) direction = positions_mm[vertex.beside] - p;
     vec3 t = unit(direction - n * dot(n, direction));
     mat3 frame = mat3(t, cross(n, t), n);
