@@ -103,17 +103,10 @@ int fail(const std::string& message) {
 Result<std::vector<ScoreRow>> compare(gpu::Device& device, const std::string& name, const Scene& scene,
                                       const std::vector<Contestant>& contestants,
                                       const ComparisonSettings& settings) {
-    Progress line("reference of " + name, 0);
-    std::optional<Progress> techniques;
+    Progress line(name, 0);
     const Result<Comparison> comparison = compare_techniques(
         device, built_in_catalog(), scene, contestants, settings,
-        {.reference = [&](double done,
-                          const std::string& reference) { line.set(done, name + ": " + reference); },
-         .techniques =
-             [&](double done, const std::string& technique) {
-                 if (!techniques) techniques.emplace(name, 0);
-                 techniques->set(done, name + ": " + technique);
-             }});
+        {.progress = [&](double done, const std::string& what) { line.set(done, name + ": " + what); }});
     if (!comparison) return comparison.error();
     const auto print = [&](Integrator integrator, const EffectReference& reference) {
         std::printf("%s: reference %s of %d samples a pixel in %.0f s%s, noise %.2f of the effect%s\n",

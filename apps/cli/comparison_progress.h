@@ -1,8 +1,10 @@
 #pragma once
-// What `dermis compare` shows while it works: one line at a time, with the best share so far.
+// What `dermis compare` shows while it works: a line with the best share so far, and the shares of all
+// techniques each time that their intervals have halved.
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "dermis/base/progress.h"
 #include "dermis/judge/comparison.h"
@@ -15,24 +17,36 @@ struct ComparisonTurn {
     size_t index = 0, count = 1;
 };
 
-/// The steps are the references' first samples, the techniques, the rest of the references.
+/// Shares of all rows by one reference.
+struct JudgedShares {
+    Integrator integrator;
+    std::vector<CapturedShare> shares;
+};
+
 class ComparisonProgress {
   public:
-    /// Of several comparisons in turn, the line shows how much of all is done.
-    explicit ComparisonProgress(ComparisonTurn turn) : turn_(std::move(turn)) {}
+    /// Of several comparisons in turn, the line shows how much of all is done, and shares are not printed.
+    ComparisonProgress(ComparisonTurn turn, const ComparisonSettings& settings)
+        : turn_(std::move(turn)), references_(settings.second ? 2 : 1), line_(turn_.what, 0) {}
 
     /// Valid as long as this object.
     [[nodiscard]] ComparisonHooks hooks();
 
   private:
-    void show(int step, double done, const std::string& text);
-    void keep_best(const std::vector<Compared>& rows, const std::vector<CapturedShare>& shares);
+    void show(double done, const std::string& text);
+    void keep(JudgedShares now, const std::vector<Compared>& rows);
 
     ComparisonTurn turn_;
+    size_t references_;
     std::string best_;
-    std::optional<Progress> line_;
-    int step_ = 0;
-    bool drawn_ = false;
+    Progress line_;
+    std::vector<JudgedShares> judged_;  ///< the latest of each reference
+    std::optional<double> printed_;     ///< the widest interval when shares were last printed
+    bool says_stopped_ = false;
 };
+
+/// A heading with the references, then a line a technique that scatters, at most 79 columns wide.
+[[nodiscard]] std::vector<std::string> shares_so_far(const std::vector<Compared>& rows,
+                                                     const std::vector<JudgedShares>& judged);
 
 }  // namespace dermis::cli

@@ -88,10 +88,6 @@ Result<ComparisonSettings> CompareChoice::settings() const {
         (samples_per_pixel != 0 && points != samples_per_pixel))
         return Error{"--samples-per-pixel " + std::to_string(samples_per_pixel) +
                      ": a square number, 1, 4, 9, 16 ... " + std::to_string(kMostGrid * kMostGrid)};
-    // Each half of the reference has two samples a pixel or more.
-    if (samples < 2 * points)
-        return Error{"--samples " + std::to_string(samples) + ": at least twice --samples-per-pixel, " +
-                     std::to_string(2 * points)};
     const std::vector<std::string> integrators = {"both", "walk", "surface"},
                                    ambients = {"renderer", "traced"};
     if (std::ranges::find(integrators, integrator) == integrators.end())

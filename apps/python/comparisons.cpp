@@ -26,26 +26,15 @@ struct OneComparison {
 Result<OneComparison> compare_one(gpu::Device& device, Renderer& renderer, const SubjectCase& one,
                                   const std::vector<Contestant>& contestants, ComparisonSettings settings,
                                   Watch& watch, double from, double share) {
-    // The references' first samples, the techniques, the rest of the references.
-    constexpr double kFirstEnd = 0.2, kTechniquesEnd = 0.4;
-    bool drawn = false;
-    const auto report = [&](double done) { watch.report(from + share * done); };
     settings.exact = one.exact;
     DERMIS_TRY_ASSIGN(
         Comparison compared,
-        compare_techniques(device, renderer, built_in_catalog(), one.scene, contestants, settings,
-                           {.reference =
-                                [&](double done, const std::string&) {
-                                    report(drawn ? kTechniquesEnd + (1 - kTechniquesEnd) * done
-                                                 : kFirstEnd * done);
-                                },
-                            .techniques =
-                                [&](double done, const std::string&) {
-                                    drawn = true;
-                                    report(kFirstEnd + (kTechniquesEnd - kFirstEnd) * done);
-                                },
-                            .stop = &watch.stopped(),
-                            .cancel = &watch.stopped()}));
+        compare_techniques(
+            device, renderer, built_in_catalog(), one.scene, contestants, settings,
+            {.progress = [&](double done, const std::string&) { watch.report(from + share * done); },
+             .shares = {},
+             .stop = &watch.stopped(),
+             .cancel = &watch.stopped()}));
     OneComparison made{.comparison = std::move(compared),
                        .reference_effect = {},
                        .json = {},

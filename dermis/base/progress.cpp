@@ -32,7 +32,29 @@ Progress::~Progress() {
         const std::lock_guard lock(running_mutex);
         std::erase(running, this);
     }
+    erase();
+}
+
+// The line, and on a terminal the lines above it.
+void Progress::erase() {
     if (drawn_) std::fputs("\r\x1b[K", stderr);
+    if (terminal_ && lines_above_ > 0) std::fprintf(stderr, "\x1b[%zuA\x1b[J", lines_above_);
+    drawn_ = false;
+    lines_above_ = 0;
+}
+
+void Progress::print(const std::vector<std::string>& lines) {
+    const std::lock_guard lock(mutex_);
+    erase();
+    for (const std::string& line : lines) std::fprintf(stderr, "%s\n", line.c_str());
+    std::fflush(stderr);
+    lines_above_ = lines.size();
+}
+
+std::optional<double> Progress::left_s() const {
+    const double made = fraction_ - first_fraction_;
+    if (made <= 0) return std::nullopt;
+    return std::chrono::duration<double>(Clock::now() - start_).count() * (1 - fraction_) / made;
 }
 
 void Progress::advance(size_t items) {
@@ -67,13 +89,10 @@ void Progress::draw(double fraction) {
 }
 
 std::string Progress::text(double fraction) const {
-    const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
-    const double made = fraction - first_fraction_;
     char numbers[64];
     int length = std::snprintf(numbers, sizeof numbers, " %3.0f %%", 100 * fraction);
-    if (made > 0)
-        length += std::snprintf(numbers + length, sizeof numbers - size_t(length), ", %.0f s left",
-                                elapsed_s * (1 - fraction) / made);
+    if (const std::optional<double> left = left_s())
+        length += std::snprintf(numbers + length, sizeof numbers - size_t(length), ", %.0f s left", *left);
     return what_ + std::string(numbers, size_t(length));
 }
 

@@ -1,12 +1,15 @@
 #pragma once
-// A progress line with an ETA for work over a second: on a terminal only, never on a pipe.
+// A progress line with an ETA for work over a second: on a terminal only, never on a pipe. Lines above it,
+// such as first results, go to a pipe too.
 
 #include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dermis::inline base {
 
@@ -23,11 +26,17 @@ class Progress {
     /// For estimated work: the share that is done, 0 to 1; it may fall. `what` replaces the line's text
     /// unless it is empty. Call from one thread.
     void set(double fraction, std::string_view what = {});
+    /// Lines of at most 79 columns on standard error. On a terminal they take the place of those before, and
+    /// the destructor erases them.
+    void print(const std::vector<std::string>& lines);
+    /// The estimated time to the end; nothing before it can be known.
+    [[nodiscard]] std::optional<double> left_s() const;
 
   private:
     using Clock = std::chrono::steady_clock;
     void draw_if_due(double fraction);
     void draw(double fraction);
+    void erase();
 
     [[nodiscard]] std::string text(double fraction) const;
     friend std::string current_progress();
@@ -39,6 +48,7 @@ class Progress {
     size_t total_;
     bool terminal_;
     bool drawn_ = false;
+    size_t lines_above_ = 0;
     std::atomic<size_t> done_ = 0;
     std::atomic<double> fraction_ = 0;
     std::mutex mutex_;

@@ -6,6 +6,7 @@
 #include "dermis/image/metrics.h"
 #include "dermis/judge/effect_reference.h"
 #include "dermis/judge/technique_pictures.h"
+#include "dermis/judge/work_estimate.h"
 #include "dermis/render/renderer.h"
 #include "dermis/scene/rest_bakes.h"
 #include "dermis/technique/gain.h"
@@ -105,67 +106,114 @@ double noise_rmse(const EffectReference& reference, const Image& mask) {
     return count > 0 ? std::sqrt(sum / count) : 0;
 }
 
-// One of the references: the samples that say how many it takes, or all.
-struct ReferencePart {
-    Integrator integrator;
-    bool first_samples;
-    double from, share;  ///< of the work on all references
+// A comparison in the making.
+struct ComparisonWork {
+    const Scene& scene;
+    const ComparisonSettings& settings;
+    const ComparisonHooks& hooks;
+    WorkEstimate estimate{};
+    std::vector<EffectReferenceMaker> references{};  // the first, the second
+    Comparison comparison{};
+
+    [[nodiscard]] bool stopped() const { return hooks.stop && hooks.stop->load(); }
+    [[nodiscard]] bool cancelled() const { return hooks.cancel && hooks.cancel->load(); }
+    [[nodiscard]] Integrator integrator(size_t reference) const {
+        return reference == 0 ? settings.reference.integrator : *settings.second;
+    }
+    [[nodiscard]] double references_left_s() const {
+        double left_ms = 0;
+        for (const EffectReferenceMaker& reference : references) left_ms += reference.left_ms();
+        return left_ms / 1000;
+    }
+    void show(const std::string& name) {
+        if (hooks.progress) hooks.progress(estimate.done(), name);
+    }
 };
 
-// The shares of all rows, of the reference so far.
-void report_shares(const Comparison& comparison, Integrator integrator, const EffectReference& reference,
-                   const ComparisonHooks& hooks) {
+using Part = WorkEstimate::Part;
+
+// Seconds of parts that have not begun, of two cores and a driver for the CPU. Too long rather than too
+// short, as the share that is done never falls.
+void guess_times(ComparisonWork& work, size_t contestants) {
+    constexpr double kFirstS = 3, kReferenceS = 15, kFrameS = 0.2, kPicturePointsPerS = 2e5,
+                     kJudgedPixelsPerS = 2e5;
+    const ComparisonSettings& s = work.settings;
+    const double pixels = double(s.width) * s.height, points = pixels * s.grid * s.grid,
+                 rows = double(contestants * (1 + s.rest_bakes.size())), references = s.second ? 2 : 1;
+    work.estimate.expect(Part::first_samples, references * kFirstS);
+    work.estimate.expect(Part::pictures, rows * points / kPicturePointsPerS);
+    work.estimate.expect(Part::frames, double(contestants) * (s.frames > 0 ? s.frames + 1 : 0) * kFrameS);
+    work.estimate.expect(Part::references, references * kReferenceS);
+    work.estimate.expect(Part::judging, rows * pixels / kJudgedPixelsPerS);
+}
+
+// The shares of all rows, of a reference so far.
+void report_shares(const ComparisonWork& work, size_t reference) {
+    if (!work.hooks.shares) return;
+    const Comparison& comparison = work.comparison;
+    const Integrator integrator = work.integrator(reference);
     std::vector<CapturedShare> shares;
     for (const Compared& row : comparison.rows) {
-        const bool second = integrator == comparison.second_integrator && row.second_effect;
         const Result<Captured> share =
-            captured(second ? *row.second_effect : row.effect, reference.effect, comparison.masks.skin);
+            captured(reference == 1 ? second_effect_of(row) : row.effect,
+                     work.references[reference].so_far().effect, comparison.masks.skin);
         if (!share) return;  // judge() names it
         shares.push_back(share->all);
     }
-    hooks.shares(integrator, comparison.rows, shares);
+    work.hooks.shares(integrator, comparison.rows, shares);
 }
 
-Result<void> make_reference(const Scene& scene, const ComparisonSettings& settings,
-                            const ComparisonHooks& hooks, const ReferencePart& part,
-                            const Comparison& comparison, EffectReference& reference) {
-    EffectReferenceSettings wanted = reference_settings(settings, part.integrator);
-    if (part.first_samples) wanted.samples = 2 * settings.grid * settings.grid;
-    EffectReferenceHooks reference_hooks{.stop = hooks.stop};
-    const std::string name = "reference " + std::string(judge_name(part.integrator));
-    reference_hooks.done = [&](double done, bool first) {
-        if (hooks.reference)
-            hooks.reference(part.from + part.share * done, first ? name + ", first samples" : name);
-    };
-    if (hooks.shares && !comparison.rows.empty())
-        reference_hooks.refined = [&](const EffectReference& so_far) {
-            report_shares(comparison, part.integrator, so_far, hooks);
+std::string reference_name(const ComparisonWork& work, size_t reference) {
+    return "reference " + std::string(judge_name(work.integrator(reference)));
+}
+
+// The first samples of all references, whose skin the techniques are drawn for.
+Result<void> begin_references(ComparisonWork& work) {
+    const size_t count = work.settings.second ? 2 : 1;
+    for (size_t i = 0; i < count; ++i) {
+        const auto done = [&](double share, bool) {
+            work.estimate.advance(Part::first_samples, (double(i) + share) / double(count));
+            work.show(reference_name(work, i) + ", first samples");
         };
-    Result<EffectReference> made = make_effect_reference(scene, wanted, reference_hooks);
-    if (!made) return made.error();
-    made->from_cache = made->from_cache && (part.first_samples || reference.from_cache);
-    for (const std::string& warning : reference.warnings)
-        if (std::ranges::find(made->warnings, warning) == made->warnings.end())
-            made->warnings.push_back(warning);
-    reference = std::move(*made);
+        DERMIS_TRY_ASSIGN(
+            EffectReferenceMaker begun,
+            EffectReferenceMaker::begin(work.scene, reference_settings(work.settings, work.integrator(i)),
+                                        {.done = done, .refined = {}, .stop = work.hooks.stop}));
+        work.references.push_back(std::move(begun));
+    }
+    work.comparison.integrator = work.settings.reference.integrator;
+    work.comparison.second_integrator = work.settings.second;
+    work.estimate.expect(Part::references, work.references_left_s());
     return {};
 }
 
-// Both references: first their first samples, whose skin the techniques are drawn for; then, with the
-// techniques' pictures, all.
-Result<void> make_references(const Scene& scene, const ComparisonSettings& settings,
-                             const ComparisonHooks& hooks, bool first_samples, Comparison& comparison) {
-    const double share = settings.second ? 0.5 : 1;
-    comparison.integrator = settings.reference.integrator;
-    DERMIS_TRY(make_reference(scene, settings, hooks, {comparison.integrator, first_samples, 0, share},
-                              comparison, comparison.reference));
-    if (settings.second) {
-        comparison.second_integrator = settings.second;
-        if (!comparison.second) comparison.second.emplace();
-        DERMIS_TRY(make_reference(scene, settings, hooks, {*settings.second, first_samples, share, share},
-                                  comparison, *comparison.second));
+// The one that is farthest from what it must be comes first.
+Result<void> refine_references(ComparisonWork& work) {
+    const auto noisier = [&](const EffectReferenceMaker& a, const EffectReferenceMaker& b) {
+        return (a.is_done() ? 0 : a.noise_over_wanted()) < (b.is_done() ? 0 : b.noise_over_wanted());
+    };
+    while (!work.stopped()) {
+        const auto next = std::ranges::max_element(work.references, noisier);
+        if (next->is_done()) break;
+        const auto i = size_t(next - work.references.begin());
+        const double begun_s = work.references_left_s(), own_s = next->left_ms() / 1000;
+        const auto done = [&](double share, bool) {
+            work.estimate.set_left(Part::references, begun_s - own_s + own_s * (1 - share));
+            work.show(reference_name(work, i));
+        };
+        DERMIS_TRY(next->refine({.done = done, .refined = {}, .stop = work.hooks.stop}));
+        report_shares(work, i);
     }
-    comparison.reference_radiance = comparison.reference.radiance();
+    return {};
+}
+
+Result<void> finish_references(ComparisonWork& work) {
+    work.estimate.advance(Part::judging, 0);
+    DERMIS_TRY_ASSIGN(work.comparison.reference, work.references[0].finish());
+    if (work.references.size() > 1) {
+        DERMIS_TRY_ASSIGN(work.comparison.second, work.references[1].finish());
+    }
+    work.comparison.reference_radiance = work.comparison.reference.radiance();
     return {};
 }
 
@@ -174,18 +222,6 @@ Contestant judged_by(Integrator integrator, Contestant contestant) {
     if (integrator == Integrator::surface) contestant.values = without_gain(contestant.values);
     return contestant;
 }
-
-// How the work on the techniques divides, in pictures of one of them.
-struct TechniqueWork {
-    double pictures, frames;
-
-    explicit TechniqueWork(size_t contestants, const ComparisonSettings& settings)
-        : pictures(double(contestants * (1 + settings.rest_bakes.size()))),
-          frames(settings.frames > 0
-                     ? double(contestants) * (settings.frames + 1) / (settings.grid * settings.grid)
-                     : 0) {}
-    [[nodiscard]] double all() const { return pictures + frames; }
-};
 
 PictureSettings picture_settings(const ComparisonSettings& settings) {
     return {.width = settings.width,
@@ -214,15 +250,22 @@ bool same_pictures(const Compared& a, const Compared& b) {
     return a.radiance.bytes == b.radiance.bytes && second_effect_of(a).bytes == second_effect_of(b).bytes;
 }
 
+// How many pictures are drawn before this one, of all.
+void show_picture(ComparisonWork& work, size_t drawn, size_t contestants, const std::string& name) {
+    const double all = double(contestants * (1 + work.settings.rest_bakes.size()));
+    work.estimate.advance(Part::pictures, double(drawn) / all);
+    work.show(name);
+}
+
 // A row of each technique and of each of the settings' rest_bakes that changes its picture.
-Result<void> add_rest_bakes(gpu::Device& device, const Catalog& catalog, const Scene& scene,
+Result<void> add_rest_bakes(gpu::Device& device, const Catalog& catalog,
                             const std::vector<Contestant>& contestants, PictureMaker& maker,
-                            const ComparisonSettings& settings, const ComparisonHooks& hooks,
-                            Comparison& comparison) {
-    double done = double(contestants.size());
-    const TechniqueWork work(contestants.size(), settings);
+                            ComparisonWork& work) {
+    const ComparisonSettings& settings = work.settings;
+    Comparison& comparison = work.comparison;
+    size_t drawn = contestants.size();
     for (const RestBakes& bakes : settings.rest_bakes) {
-        Scene baked = scene;
+        Scene baked = work.scene;
         baked.rest_bakes = bakes;
         DERMIS_TRY_ASSIGN(Renderer renderer,
                           Renderer::create(device, gpu::embedded_shaders(catalog.shaders), baked));
@@ -232,8 +275,8 @@ Result<void> add_rest_bakes(gpu::Device& device, const Catalog& catalog, const S
             if (contestant.technique->is_baseline) continue;
             contestant.settings +=
                 (contestant.settings.empty() ? "rest=" : ",rest=") + rest_bakes_text(bakes);
-            if (hooks.techniques) hooks.techniques(done++ / work.all(), contestant.name());
-            if (hooks.cancel && hooks.cancel->load()) return Error{"stopped"};
+            show_picture(work, drawn++, contestants.size(), contestant.name());
+            if (work.cancelled()) return Error{"stopped"};
             DERMIS_TRY_ASSIGN(Compared row,
                               drawn_row(maker, drawn_by, contestant, settings, comparison.integrator));
             row.remade = i;
@@ -296,39 +339,53 @@ Result<void> add_pictures(PictureMaker& maker, const Technique& baseline, const 
     return {};
 }
 
-// Drawing and timing in one renderer: pictures first, then the costs in rounds.
+// All pictures, the masks, and the shares by the first samples.
 Result<void> draw_techniques(gpu::Device& device, Renderer& renderer, const Catalog& catalog,
-                             const Scene& scene, const std::vector<Contestant>& contestants,
-                             const ComparisonSettings& settings, const ComparisonHooks& hooks,
-                             Comparison& comparison) {
+                             const std::vector<Contestant>& contestants, ComparisonWork& work) {
+    Comparison& comparison = work.comparison;
+    const ComparisonSettings& settings = work.settings;
     DERMIS_TRY_ASSIGN(const Technique* baseline, find_baseline(catalog.techniques));
     PictureMaker maker(renderer, *baseline, picture_settings(settings));
-    const TechniqueWork work(contestants.size(), settings);
     for (const Contestant& contestant : contestants) {
-        if (hooks.techniques)
-            hooks.techniques(double(comparison.rows.size()) / work.all(), contestant.name());
-        if (hooks.cancel && hooks.cancel->load()) return Error{"stopped"};
+        show_picture(work, comparison.rows.size(), contestants.size(), contestant.name());
+        if (work.cancelled()) return Error{"stopped"};
         DERMIS_TRY_ASSIGN(Compared row, drawn_row(maker, maker, contestant, settings, comparison.integrator));
         comparison.rows.push_back(std::move(row));
     }
-    DERMIS_TRY(add_rest_bakes(device, catalog, scene, contestants, maker, settings, hooks, comparison));
-    if (settings.exact)
-        if (Result<void> added = add_exact(maker, *baseline, scene, settings, comparison); !added)
-            return added;
-    Result<SkinMasks> masks = maker.masks(comparison.reference.skin);
-    if (!masks) return masks.error();
-    comparison.masks = std::move(*masks);
+    DERMIS_TRY(add_rest_bakes(device, catalog, contestants, maker, work));
+    if (settings.exact) DERMIS_TRY(add_exact(maker, *baseline, work.scene, settings, comparison));
+    DERMIS_TRY_ASSIGN(comparison.masks, maker.masks(work.references[0].so_far().skin));
+    DERMIS_TRY(add_pictures(maker, *baseline, settings, comparison));
+    for (size_t i = 0; i < work.references.size(); ++i) report_shares(work, i);
+    return {};
+}
+
+// Of the first rows; those after them have no known cost.
+Result<void> time_techniques(Renderer& renderer, const std::vector<Contestant>& contestants,
+                             ComparisonWork& work) {
+    const ComparisonSettings& settings = work.settings;
+    const auto show = [&](double done, const std::string& name) {
+        work.estimate.advance(Part::frames, done);
+        work.show("frame times, " + name);
+    };
     DERMIS_TRY_ASSIGN(const std::vector<TechniqueCost> costs,
-                      measure_costs(renderer, scene, contestants, settings.width, settings.height,
-                                    settings.frames, [&](double done, const std::string& name) {
-                                        if (hooks.techniques)
-                                            hooks.techniques(
-                                                (work.pictures + done * work.frames) / work.all(),
-                                                "frame times, " + name);
-                                    }));
-    for (size_t i = 0; i < costs.size(); ++i) comparison.rows[i].cost = costs[i];
-    comparison.warnings = renderer.warnings();
-    return add_pictures(maker, *baseline, settings, comparison);
+                      measure_costs(renderer, work.scene, contestants, settings.width, settings.height,
+                                    settings.frames, show, work.hooks.stop));
+    for (size_t i = 0; i < costs.size(); ++i) work.comparison.rows[i].cost = costs[i];
+    return {};
+}
+
+Result<void> judge_all(ComparisonWork& work) {
+    Comparison& comparison = work.comparison;
+    DERMIS_TRY(finish_references(work));
+    DERMIS_TRY_ASSIGN(comparison.regions, find_regions(work.scene, comparison.masks.skin));
+    comparison.reference_rmse = noise_rmse(comparison.reference, comparison.masks.skin);
+    for (size_t i = 0; i < comparison.rows.size(); ++i) {
+        work.estimate.advance(Part::judging, double(i) / double(comparison.rows.size()));
+        work.show("errors of the pictures");
+        DERMIS_TRY(judge(comparison, work.scene, comparison.rows[i]));
+    }
+    return {};
 }
 
 }  // namespace
@@ -340,7 +397,8 @@ int grid_of_size(int width, int height) {
 }
 
 double noise_of_size(int width, int height) {
-    return ComparisonSettings{}.noise * std::max(std::sqrt(double(width) * height) / 128, 1.0);
+    constexpr double kSmallNoise = 0.2, kSmallSide = 128;
+    return kSmallNoise * std::max(std::sqrt(double(width) * height) / kSmallSide, 1.0);
 }
 
 ComparisonSettings comparison_settings(int width, int height) {
@@ -371,20 +429,17 @@ Result<Comparison> compare_techniques(gpu::Device& device, Renderer& renderer, c
                                       const Scene& scene, const std::vector<Contestant>& contestants,
                                       const ComparisonSettings& settings, const ComparisonHooks& hooks) {
     DERMIS_TRY(check_comparison(scene, contestants, settings));
-    Comparison comparison{.device = device.info().name};
-    DERMIS_TRY(make_references(scene, settings, hooks, true, comparison));
-    if (Result<void> drawn =
-            draw_techniques(device, renderer, catalog, scene, contestants, settings, hooks, comparison);
-        !drawn)
-        return drawn.error();
-    DERMIS_TRY(make_references(scene, settings, hooks, false, comparison));
-    if (hooks.cancel && hooks.cancel->load()) return Error{"stopped"};
-    Result<RegionMasks> regions = find_regions(scene, comparison.masks.skin);
-    if (!regions) return regions.error();
-    comparison.regions = std::move(*regions);
-    comparison.reference_rmse = noise_rmse(comparison.reference, comparison.masks.skin);
-    for (Compared& row : comparison.rows) DERMIS_TRY(judge(comparison, scene, row));
-    return comparison;
+    ComparisonWork work{scene, settings, hooks};
+    work.comparison.device = device.info().name;
+    guess_times(work, contestants.size());
+    DERMIS_TRY(begin_references(work));
+    DERMIS_TRY(draw_techniques(device, renderer, catalog, contestants, work));
+    DERMIS_TRY(time_techniques(renderer, contestants, work));
+    for (const std::string& warning : renderer.warnings()) work.comparison.warnings.push_back(warning);
+    DERMIS_TRY(refine_references(work));
+    if (work.cancelled()) return Error{"stopped"};
+    DERMIS_TRY(judge_all(work));
+    return std::move(work.comparison);
 }
 
 const Judgement* judgement_by(Integrator integrator, const Comparison& comparison, const Compared& row) {

@@ -33,9 +33,9 @@ struct ComparisonSettings {
     /// The picture is made with this shadow map, so that a technique is not charged for the coarser one's
     /// bias; frames are timed with the renderer's own.
     int shadow_map_size = 4096;
-    int grid = 6;        ///< both sides take grid x grid points of a pixel; grid_of_size()
-    double noise = 0.2;  ///< of the effect's RMS at which the reference is fine enough
-    int samples = 2048;  ///< of the reference a pixel, at most
+    int grid = 6;         ///< both sides take grid x grid points of a pixel; grid_of_size()
+    double noise = 0.25;  ///< of the effect's RMS at which the reference is fine enough
+    int samples = 2048;   ///< of the reference a pixel, at most
     /// Probes per sample of `surface`. The bias of its quotient is below a hundredth of the effect.
     int probes = 32;
     int walks = 16;  ///< per sample of `walk`, which has no bias
@@ -106,16 +106,16 @@ struct Comparison {
     std::string device;
 };
 
-/// The references' first samples are made first, then the techniques' pictures, then the rest.
+/// The references' first samples are made first, then the techniques' pictures and the first shares, then
+/// timed frames and the rest of the references, the noisier one first.
 struct ComparisonHooks {
-    /// With the share of this round over all references that is done, and the name of the one in work.
-    std::function<void(double done, const std::string& name)> reference;
-    /// Before each picture and timed frame, with the share of the work on techniques that is done.
-    std::function<void(double done, const std::string& name)> techniques;
-    /// After each batch of a reference, once the techniques are drawn: the share of each row so far.
+    /// The share of all the work that is done, by estimated time, and what is in work. Never falls.
+    std::function<void(double done, const std::string& name)> progress;
+    /// Once the techniques are drawn, and after each step of a reference: the share of each row so far.
     std::function<void(Integrator, const std::vector<Compared>& rows, const std::vector<CapturedShare>&)>
         shares;
-    /// Ends the references early; what they have is judged. Set before the first samples are there: an error.
+    /// Ends references and timed frames early; what there is is judged. Set before the first samples are
+    /// there: an error.
     const std::atomic<bool>* stop = nullptr;
     /// Ends everything with an error.
     const std::atomic<bool>* cancel = nullptr;

@@ -1,7 +1,9 @@
 #include "dermis/judge/effect_reference.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "dermis/base/cache.h"
@@ -13,71 +15,46 @@
 #include "dermis/optics/presets.h"
 #include "dermis/rays/camera_ray.h"
 #include "dermis/rays/random.h"
+#include "dermis/reference/effect_sampler.h"
 #include "dermis/reference/materials.h"
+#include "dermis/reference/picture_sums.h"
 
 namespace dermis::inline judge {
 namespace {
 
-// Rounds over the grid in one batch at most: what a run that is stopped loses.
-constexpr int kMostRounds = 8;
-// Factor on the estimated number of passes, so that the wanted noise is not missed by a small amount.
+// Factor on the estimated number of samples, so that the wanted noise is not missed by a small amount.
 constexpr double kMargin = 1.05;
-
-struct State {
-    int passes = 0;  // a half
-    uint32_t batches = 0;
-    EffectReference reference;
-    Image away;  // from cuts
-
-    explicit State(const ReferenceSettings& s) {
-        reference.effect = {Image(s.width, s.height, 3), Image(s.width, s.height, 3)};
-        reference.halves = {Image(s.width, s.height, 4), Image(s.width, s.height, 4)};
-        reference.skin = Image(s.width, s.height, 1);
-    }
-    // What is stored.
-    [[nodiscard]] auto parts() {
-        return std::tie(passes, batches, reference.time_ms, reference.effect.a.bytes,
-                        reference.effect.b.bytes, reference.halves[0].bytes, reference.halves[1].bytes,
-                        reference.skin.bytes, reference.warnings);
-    }
-};
+// Samples of a half of each pixel before their spread is known.
+constexpr int kFirstSamples = 1;
+// The least part of a pixel in later samples, over the mean's: the spread around it may miss its own.
+constexpr float kLeastWeight = 0.4f, kMostWeight = 4;
 
 Result<std::string> state_hash(const Scene& scene, const ReferenceSettings& settings) {
     ReferenceSettings plain = settings;
-    plain.samples = settings.grid * settings.grid;
+    plain.samples = 0;
     DERMIS_TRY_ASSIGN(const std::string hash, reference_hash(scene, plain));
     return Hasher().add(std::string_view("effect")).add(hash).hex();
 }
 
-void add_weighted(Image& mean, const Image& value, float share) {
-    for (size_t i = 0; i < mean.floats().size(); ++i)
-        mean.floats()[i] += (value.floats()[i] - mean.floats()[i]) * share;
+// The picture without scattering, for a half: every cell of every pixel once.
+Result<ReferencePicture> unscattered(const Scene& scene, const ReferenceSettings& effect, uint32_t half,
+                                     const ReferenceProgress& progress, const std::atomic<bool>* stop) {
+    const ReferenceSettings settings{.integrator = Integrator::lambert,
+                                     .width = effect.width,
+                                     .height = effect.height,
+                                     .samples = std::max(effect.grid * effect.grid, 2),
+                                     .seed = hash_u32(effect.seed, half),
+                                     .probes = 2,
+                                     .cavities = effect.cavities,
+                                     .filter = PixelFilter::grid,
+                                     .grid = effect.grid,
+                                     .lighting = effect.lighting};
+    DERMIS_TRY_ASSIGN(CachedReference made, cached_reference(scene, settings, progress, stop));
+    return std::move(made.picture);
 }
 
-// One batch of both widths goes to one half.
-Result<void> add_batch(const Scene& scene, ReferenceSettings settings, int half, State& state,
-                       const ReferenceProgress& progress, const std::atomic<bool>* stop) {
-    settings.seed = hash_u32(settings.seed, state.batches);
-    // Width 0 takes a small part of the time.
-    const Result<ReferencePicture> skin = render_reference(scene, settings, progress, stop);
-    if (!skin) return skin.error();
-    settings.integrator = Integrator::lambert;
-    DERMIS_TRY_ASSIGN(const ReferencePicture none, render_reference(scene, settings, {}, stop));
-    if (stop && stop->load()) return Error{"stopped"};
-    const float share = float(settings.samples) / float(state.passes + settings.samples);
-    add_weighted(half == 0 ? state.reference.effect.a : state.reference.effect.b,
-                 difference(skin->diffuse, none.diffuse), share);
-    add_weighted(state.reference.halves[size_t(half)], skin->radiance, share);
-    state.reference.skin = skin->skin;
-    if (!state.away.empty())
-        for (size_t i = 0; i < state.away.pixel_count(); ++i)
-            state.reference.skin.floats()[i] *= state.away.floats()[i];
-    state.reference.time_ms += skin->time_ms + none.time_ms;
-    ++state.batches;
-    for (const std::string& warning : skin->warnings)
-        if (std::ranges::find(state.reference.warnings, warning) == state.reference.warnings.end())
-            state.reference.warnings.push_back(warning);
-    return {};
+Error stopped_early() {
+    return Error{"stopped before the first samples were complete: there is no picture yet"};
 }
 
 Image whole_skin(const Image& skin) {
@@ -86,54 +63,46 @@ Image whole_skin(const Image& skin) {
     return mask;
 }
 
-// Passes a half that the wanted noise takes, by what it is now: the square falls as one over the work.
-double passes_wanted(const State& state, const EffectReferenceSettings& settings) {
-    const EffectNoise& now = state.reference.noise;
-    const double most = settings.samples / 2.0;
-    if (now.effect_rms <= 0) return most;
-    const double ratio = now.noise_rms / (settings.noise * now.effect_rms);
-    return std::min(most, state.passes * ratio * ratio * (ratio > 1 ? kMargin : 1));
+// Spread of the halves around each pixel, the pixel itself left out: root of the mean square of their
+// difference over its 24 neighbours in the mask; 0 where there are none.
+std::vector<float> spread_around(const EffectSamples& samples, const Image& mask) {
+    constexpr int kReach = 2;
+    const int width = mask.width, height = mask.height;
+    std::vector<double> squares(mask.pixel_count());
+    for (size_t i = 0; i < squares.size(); ++i)
+        for (size_t c = 3 * i; c < 3 * i + 3; ++c)
+            squares[i] += std::pow(double(samples.a.floats()[c]) - double(samples.b.floats()[c]), 2);
+    std::vector<float> spread(squares.size());
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            double sum = 0, count = 0;
+            for (int v = std::max(y - kReach, 0); v <= std::min(y + kReach, height - 1); ++v)
+                for (int u = std::max(x - kReach, 0); u <= std::min(x + kReach, width - 1); ++u) {
+                    const size_t other = size_t(v) * size_t(width) + size_t(u);
+                    if ((u == x && v == y) || mask.floats()[other] <= 0) continue;
+                    sum += squares[other];
+                    ++count;
+                }
+            spread[size_t(y) * size_t(width) + size_t(x)] = count > 0 ? float(std::sqrt(sum / count)) : 0;
+        }
+    return spread;
 }
 
-bool fine_enough(const State& state, const EffectReferenceSettings& settings) {
-    return state.passes > 0 &&
-           state.reference.noise.noise_rms <= settings.noise * state.reference.noise.effect_rms;
-}
-
-// The next batch of a half, in passes: whole rounds over the grid; 0 when the limit leaves none.
-int next_passes(const State& state, const EffectReferenceSettings& settings) {
-    const int cells = settings.reference.grid * settings.reference.grid;
-    // The cache may hold a finer reference, of a run with a higher limit.
-    const int left = std::max(0, settings.samples / 2 - state.passes) / cells;
-    if (state.passes == 0) return cells * std::min(left, 1);
-    const double wanted = (passes_wanted(state, settings) - state.passes) / cells;
-    return cells * std::min({left, kMostRounds, std::max(1, int(std::ceil(wanted)))});
-}
-
-// A batch of both halves, or none of it.
-Result<void> refine(const Scene& scene, const ReferenceSettings& reference,
-                    const EffectReferenceSettings& settings, const EffectReferenceHooks& hooks,
-                    State& state) {
-    State next = state;
-    next.reference.from_cache = false;
-    for (int half = 0; half < 2; ++half) {
-        const auto done = [&](double share) {
-            if (!hooks.done) return;
-            const bool first = state.passes == 0;
-            const double passes = state.passes + (half + share) / 2 * reference.samples;
-            const double wanted = first ? reference.samples : passes_wanted(state, settings);
-            hooks.done(std::min(1.0, passes / std::max(wanted, 1.0)), first);
-        };
-        DERMIS_TRY(add_batch(scene, reference, half, next, done, hooks.stop));
-    }
-    next.passes += reference.samples;
-    next.reference.samples = 2 * next.passes;
-    const Image mask = whole_skin(next.reference.skin);
-    if (std::ranges::none_of(mask.floats(), [](float v) { return v > 0; }))
-        return Error{"no pixel shows skin: nothing to compare (see the scene's materials and camera)"};
-    next.reference.noise = effect_noise(next.reference.effect, mask);
-    state = std::move(next);
-    return {};
+// A pixel's part of the samples, over the mean's: as its spread (Neyman 1934), which gives the least mean
+// square of the noise.
+std::vector<float> sample_weights(const EffectSamples& samples, const Image& mask) {
+    std::vector<float> weights = spread_around(samples, mask);
+    const auto mean = [&] {
+        double sum = 0, count = 0;
+        for (size_t i = 0; i < weights.size(); ++i)
+            if (mask.floats()[i] > 0) sum += weights[i], ++count;
+        return float(sum / std::max(count, 1.0));
+    };
+    const float before = mean();
+    for (float& w : weights) w = before > 0 ? std::clamp(w / before, kLeastWeight, kMostWeight) : 1;
+    const float after = mean();
+    for (float& w : weights) w /= after;
+    return weights;
 }
 
 }  // namespace
@@ -145,36 +114,186 @@ Image EffectReference::radiance() const {
     return mean;
 }
 
+struct EffectReferenceMaker::Work {
+    const Scene& scene;
+    EffectReferenceSettings settings;
+    std::string hash;
+    Image shown;                           // the share of skin, beside cuts too
+    Image mask;                            // whole pixels of skin
+    std::optional<EffectSampler> sampler;  // made when samples are
+    // What is stored.
+    int passes = 0;  // samples of a half, in the mean of the mask
+    double time_ms = 0;
+    EffectSamples samples;
+    std::vector<float> weights;
+    EffectReference reference;
+
+    Work(const Scene& of, const EffectReferenceSettings& s)
+        : scene(of), settings(s), samples(s.reference.width, s.reference.height) {}
+
+    [[nodiscard]] auto parts() {
+        return std::tie(passes, time_ms, samples.a.bytes, samples.b.bytes, samples.counts, samples.walks,
+                        samples.lost_walks, samples.cut_channels, weights);
+    }
+    void load() {
+        weights.resize(samples.counts.size());
+        if (cache_load("effect", hash, parts())) return;
+        passes = 0;
+        time_ms = 0;
+        samples = EffectSamples(mask.width, mask.height);
+    }
+
+    [[nodiscard]] Result<void> find_skin(const EffectReferenceHooks& hooks) {
+        const auto done = [&](double share) {
+            if (hooks.done) hooks.done(0.5 * share, true);
+        };
+        DERMIS_TRY_ASSIGN(ReferencePicture none, unscattered(scene, settings.reference, 0, done, hooks.stop));
+        if (hooks.stop && hooks.stop->load()) return stopped_early();
+        shown = none.skin;
+        reference.skin = std::move(none.skin);
+        reference.halves[0] = std::move(none.radiance);
+        DERMIS_TRY_ASSIGN(const Image away, away_from_cuts(scene, shown.width, shown.height));
+        for (size_t i = 0; i < away.pixel_count(); ++i) reference.skin.floats()[i] *= away.floats()[i];
+        mask = whole_skin(reference.skin);
+        if (std::ranges::none_of(mask.floats(), [](float v) { return v > 0; }))
+            return Error{"no pixel shows skin: nothing to compare (see the scene's materials and camera)"};
+        return {};
+    }
+
+    // Samples of each pixel's half when the mean has `mean`; a number by chance, which the pixel has for
+    // ever, rounds them.
+    [[nodiscard]] std::vector<uint32_t> counts_of(int mean) const {
+        std::vector<uint32_t> counts(samples.counts.size());
+        for (size_t i = 0; i < counts.size(); ++i) {
+            if (shown.floats()[i] <= 0) continue;
+            const float part = mean > kFirstSamples ? weights[i] : 1;
+            const float rounding = unit_float(hash_u32(settings.reference.seed, uint32_t(i)));
+            counts[i] = std::max(uint32_t(kFirstSamples), uint32_t(part * float(mean) + rounding));
+        }
+        return counts;
+    }
+
+    [[nodiscard]] Result<void> raise_to(int mean, const EffectReferenceHooks& hooks) {
+        if (!sampler) {
+            DERMIS_TRY_ASSIGN(EffectSampler made, EffectSampler::create(scene, settings.reference));
+            sampler.emplace(std::move(made));
+        }
+        const auto start = std::chrono::steady_clock::now();
+        const bool first = passes == 0;
+        const double wanted = std::max(passes_wanted(), double(mean));
+        const auto done = [&](double share) {
+            if (!hooks.done) return;
+            hooks.done(first ? 0.5 + 0.5 * share : (passes + share * (mean - passes)) / wanted, first);
+        };
+        const bool complete = sampler->raise(counts_of(mean), samples, done, hooks.stop);
+        if (!complete && first) return stopped_early();
+        time_ms +=
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        if (complete) passes = mean;
+        reference.stopped = !complete;
+        if (first) weights = sample_weights(samples, mask);
+        update();
+        reference.from_cache = false;
+        cache_store("effect", hash, parts());
+        if (hooks.refined) hooks.refined(reference);
+        return {};
+    }
+
+    void update() {
+        reference.effect = {samples.a, samples.b};
+        reference.noise = effect_noise(reference.effect, mask);
+        reference.samples = 2 * passes;
+        reference.time_ms = time_ms;
+    }
+
+    [[nodiscard]] bool is_fine_enough() const {
+        return reference.noise.noise_rms <= settings.noise * reference.noise.effect_rms;
+    }
+    [[nodiscard]] int most_passes() const { return settings.samples / 2; }
+    // By the noise now: the square falls as one over the work.
+    [[nodiscard]] double passes_wanted() const {
+        const auto [effect, noise] = reference.noise;
+        if (effect <= 0) return most_passes();
+        const double ratio = noise / (settings.noise * effect);
+        return std::min(double(most_passes()), passes * ratio * ratio * (ratio > 1 ? kMargin : 1));
+    }
+    [[nodiscard]] int next_passes() const {
+        const int half_more = passes + std::max(1, passes / 2);
+        return std::min(std::max(passes + 1, int(std::ceil(passes_wanted()))),
+                        std::min(half_more, most_passes()));
+    }
+};
+
+EffectReferenceMaker::EffectReferenceMaker(std::unique_ptr<Work> work) : work_(std::move(work)) {}
+EffectReferenceMaker::~EffectReferenceMaker() = default;
+EffectReferenceMaker::EffectReferenceMaker(EffectReferenceMaker&&) noexcept = default;
+
+Result<EffectReferenceMaker> EffectReferenceMaker::begin(const Scene& scene,
+                                                         const EffectReferenceSettings& settings,
+                                                         const EffectReferenceHooks& hooks) {
+    if (settings.samples < 2 * kFirstSamples)
+        return Error{"at most " + std::to_string(settings.samples) +
+                     " samples a pixel: both halves of the reference need " +
+                     std::to_string(2 * kFirstSamples)};
+    auto work = std::make_unique<Work>(scene, settings);
+    work->settings.reference.filter = PixelFilter::grid;
+    work->settings.reference.noise = {};
+    DERMIS_TRY_ASSIGN(work->hash, state_hash(scene, work->settings.reference));
+    DERMIS_TRY(work->find_skin(hooks));
+    work->load();
+    work->reference.from_cache = true;
+    DERMIS_TRY_ASSIGN(work->reference.warnings, walk_notes(scene, work->settings.reference));
+    work->update();
+    if (work->passes == 0) DERMIS_TRY(work->raise_to(kFirstSamples, hooks));
+    return EffectReferenceMaker(std::move(work));
+}
+
+bool EffectReferenceMaker::is_done() const {
+    return work_->reference.stopped || work_->is_fine_enough() || work_->passes >= work_->most_passes();
+}
+
+Result<void> EffectReferenceMaker::refine(const EffectReferenceHooks& hooks) {
+    return work_->raise_to(work_->next_passes(), hooks);
+}
+
+const EffectReference& EffectReferenceMaker::so_far() const {
+    return work_->reference;
+}
+
+double EffectReferenceMaker::noise_over_wanted() const {
+    const EffectNoise& noise = work_->reference.noise;
+    const double wanted = work_->settings.noise * noise.effect_rms;
+    return wanted > 0 ? noise.noise_rms / wanted : std::numeric_limits<double>::infinity();
+}
+
+double EffectReferenceMaker::left_ms() const {
+    if (is_done()) return 0;
+    return work_->time_ms * std::max(work_->passes_wanted() / work_->passes - 1, 0.0);
+}
+
+Result<EffectReference> EffectReferenceMaker::finish() {
+    Work& work = *work_;
+    DERMIS_TRY_ASSIGN(ReferencePicture none,
+                      unscattered(work.scene, work.settings.reference, 1, {}, nullptr));
+    EffectReference made = work.reference;
+    made.reached = work.is_fine_enough();
+    made.stopped = !is_done() || made.stopped;
+    made.halves[1] = std::move(none.radiance);
+    for (size_t half = 0; half < 2; ++half) {
+        const Image& effect = half == 0 ? made.effect.a : made.effect.b;
+        for (size_t i = 0; i < effect.pixel_count(); ++i)
+            for (size_t c = 0; c < 3; ++c)
+                made.halves[half].floats()[4 * i + c] += effect.floats()[3 * i + c];
+    }
+    add_fault_warnings(work.samples.walks, work.samples.lost_walks, work.samples.cut_channels, made.warnings);
+    return made;
+}
+
 Result<EffectReference> make_effect_reference(const Scene& scene, const EffectReferenceSettings& settings,
                                               const EffectReferenceHooks& hooks) {
-    ReferenceSettings reference = settings.reference;
-    reference.filter = PixelFilter::grid;
-    reference.noise = {};
-    const int cells = reference.grid * reference.grid;
-    if (settings.samples < 2 * cells)
-        return Error{"at most " + std::to_string(settings.samples) +
-                     " samples a pixel: both halves of the reference need " + std::to_string(2 * cells)};
-    DERMIS_TRY_ASSIGN(const std::string hash, state_hash(scene, reference));
-    State state(reference);
-    if (cache_load("effect", hash, state.parts()))
-        state.reference.noise = effect_noise(state.reference.effect, whole_skin(state.reference.skin));
-    else
-        state = State(reference);
-    DERMIS_TRY_ASSIGN(state.away, away_from_cuts(scene, reference.width, reference.height));
-    state.reference.samples = 2 * state.passes;
-    state.reference.from_cache = true;
-    while (!fine_enough(state, settings)) {
-        reference.samples = next_passes(state, settings);
-        if (reference.samples == 0) break;
-        const Result<void> refined = refine(scene, reference, settings, hooks, state);
-        state.reference.stopped = hooks.stop && hooks.stop->load();
-        if (!refined && (!state.reference.stopped || state.passes == 0)) return refined.error();
-        if (!refined) break;
-        cache_store("effect", hash, state.parts());
-        if (hooks.refined) hooks.refined(state.reference);
-    }
-    state.reference.reached = fine_enough(state, settings);
-    return std::move(state.reference);
+    DERMIS_TRY_ASSIGN(EffectReferenceMaker maker, EffectReferenceMaker::begin(scene, settings, hooks));
+    while (!maker.is_done()) DERMIS_TRY(maker.refine(hooks));
+    return maker.finish();
 }
 
 Result<Image> exact_effect(const Scene& scene, const ExactExitance& exact, int width, int height, int grid,

@@ -49,11 +49,12 @@ Result<std::string> reference_hash(const Scene& scene, const ReferenceSettings& 
 }
 
 Result<CachedReference> cached_reference(const Scene& scene, const ReferenceSettings& settings,
-                                         const ReferenceProgress& progress, const std::atomic<bool>* stop) {
+                                         const ReferenceProgress& progress, const std::atomic<bool>* stop,
+                                         const ReferencePreview& preview) {
     DERMIS_TRY_ASSIGN(const std::string hash, reference_hash(scene, settings));
     CachedReference found{blank_picture(settings), true};
     if (cache_load("reference", hash, parts_of(found.picture))) return found;
-    DERMIS_TRY_ASSIGN(ReferencePicture picture, render_reference(scene, settings, progress, stop));
+    DERMIS_TRY_ASSIGN(ReferencePicture picture, render_reference(scene, settings, progress, stop, preview));
     if (!stop || !stop->load()) cache_store("reference", hash, parts_of(picture));
     return CachedReference{std::move(picture), false};
 }

@@ -23,6 +23,7 @@ struct CachedReference {
 /// Errors as both.
 [[nodiscard]] Result<CachedReference> cached_reference(const Scene& scene, const ReferenceSettings& settings,
                                                        const ReferenceProgress& progress = {},
-                                                       const std::atomic<bool>* stop = nullptr);
+                                                       const std::atomic<bool>* stop = nullptr,
+                                                       const ReferencePreview& preview = {});
 
 }  // namespace dermis::inline judge

@@ -38,13 +38,14 @@ Result<void> measure_bytes(const Scene& scene, const Contestant& contestant, int
 
 Result<std::vector<TechniqueCost>> measure_costs(
     Renderer& renderer, const Scene& scene, const std::vector<Contestant>& contestants, int width, int height,
-    int frames, const std::function<void(double done, const std::string& name)>& progress) {
+    int frames, const std::function<void(double done, const std::string& name)>& progress,
+    const std::atomic<bool>* stop) {
     std::vector<TechniqueCost> costs(contestants.size());
     for (size_t i = 0; i < costs.size(); ++i)
         DERMIS_TRY(measure_bytes(scene, contestants[i], width, height, costs[i]));
     if (frames == 0) return costs;
     std::vector<std::vector<double>> times(costs.size());
-    for (int frame = 0; frame <= frames; ++frame)
+    for (int frame = 0; frame <= frames && !(stop && stop->load()); ++frame)
         for (size_t i = 0; i < costs.size(); ++i) {
             const Contestant& contestant = contestants[i];
             const double all = double(frames + 1) * double(costs.size());

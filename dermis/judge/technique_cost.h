@@ -1,6 +1,7 @@
 #pragma once
 // The cost of a technique: bytes of its tables and images, frame times.
 
+#include <atomic>
 #include <functional>
 #include <string>
 #include <vector>
@@ -21,9 +22,11 @@ struct TechniqueCost {
 
 /// One entry a contestant, at this size. `frames` timed ones after one that compiles; 0: none are. Rounds go
 /// over all contestants, so that a machine that is busy for a while is so for all of them. Errors name the
-/// contestant. `progress`: called before each frame with the share of them that is done.
+/// contestant. `progress`: called before each frame with the share of them that is done. `stop` ends it after
+/// a round: times are of the rounds so far.
 [[nodiscard]] Result<std::vector<TechniqueCost>> measure_costs(
     Renderer& renderer, const Scene& scene, const std::vector<Contestant>& contestants, int width, int height,
-    int frames, const std::function<void(double done, const std::string& name)>& progress = {});
+    int frames, const std::function<void(double done, const std::string& name)>& progress = {},
+    const std::atomic<bool>* stop = nullptr);
 
 }  // namespace dermis::inline judge

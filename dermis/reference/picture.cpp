@@ -1,6 +1,7 @@
 #include "dermis/reference/picture.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 
@@ -72,7 +73,49 @@ bool run_pass(const PixelSampler& sampler, int pass, Canvas& canvas, const std::
     return complete;
 }
 
-Result<void> check_settings(const ReferenceSettings& s) {
+// The radiance where every `step`-th pixel of each direction has a sample; it fills those after it.
+Image radiance_so_far(const Canvas& canvas, size_t step) {
+    const PictureSums& sums = canvas.sums;
+    Image radiance(sums.width, sums.height, 4);
+    const auto width = size_t(sums.width);
+    for (size_t i = 0; i < sums.pixels.size(); ++i) {
+        const size_t x = i % width, y = i / width;
+        const PixelState& from = sums.pixels[(y - y % step) * width + x - x % step];
+        const Vec3 mean = from.mean(kRadianceSum);
+        const float channels[] = {mean.x, mean.y, mean.z, from.mean(kCoverageSum).x};
+        std::ranges::copy(channels, &radiance.floats()[4 * i]);
+    }
+    return radiance;
+}
+
+// The first pass in the order of finer lattices, so that a whole picture is there early.
+bool run_first_pass(const PixelSampler& sampler, Canvas& canvas, const std::atomic<bool>* stop,
+                    const ReferencePreview& preview) {
+    constexpr size_t kCoarsest = 4;
+    const auto width = size_t(canvas.sums.width);
+    for (size_t step = kCoarsest; step > 0; step /= 2) {
+        for (size_t i = 0; i < canvas.active.size(); ++i)
+            canvas.active[i] =
+                canvas.sums.pixels[i].count == 0 && i % width % step == 0 && i / width % step == 0;
+        if (!run_pass(sampler, 0, canvas, stop)) return false;
+        preview(radiance_so_far(canvas, step));
+    }
+    std::ranges::fill(canvas.active, uint8_t(1));
+    return true;
+}
+
+// The part of the work that is done: by passes, or by the error, which falls as one over the square root of
+// the work.
+double share_done(const ReferenceSettings& settings, int pass, double error) {
+    const double by_passes = double(pass) / settings.samples;
+    if (!settings.noise || error <= 0 || pass < 2) return by_passes;
+    const double ratio = *settings.noise / error;
+    return std::clamp(std::max(by_passes, ratio * ratio), 0.0, 1.0);
+}
+
+}  // namespace
+
+Result<void> check(const ReferenceSettings& s) {
     const auto out_of_range = [](std::string_view what, auto value, std::string_view range) {
         return Error{std::string(what) + " is " + std::to_string(value) + ", not within " +
                      std::string(range)};
@@ -83,7 +126,7 @@ Result<void> check_settings(const ReferenceSettings& s) {
         return good.error();
     if (s.samples < 2 || s.samples > kMostSamples)
         return out_of_range("samples a pixel", s.samples, "2..65536");
-    const int least_probes = s.integrator == Integrator::walk ? 2 : kLeastProbes;
+    const int least_probes = s.integrator == Integrator::surface ? kLeastProbes : 2;
     if (s.probes < least_probes || s.probes > 65536 || s.probes % 2)
         return out_of_range("probes", s.probes, std::to_string(least_probes) + "..65536, even");
     if (!(s.width_scale >= 0 && s.width_scale <= 1000))
@@ -102,16 +145,14 @@ Result<void> check_settings(const ReferenceSettings& s) {
     return {};
 }
 
-// The part of the work that is done: by passes, or by the error, which falls as one over the square root of
-// the work.
-double share_done(const ReferenceSettings& settings, int pass, double error) {
-    const double by_passes = double(pass) / settings.samples;
-    if (!settings.noise || error <= 0 || pass < 2) return by_passes;
-    const double ratio = *settings.noise / error;
-    return std::clamp(std::max(by_passes, ratio * ratio), 0.0, 1.0);
+Result<std::vector<std::string>> walk_notes(const Scene& scene, const ReferenceSettings& settings) {
+    std::vector<std::string> notes;
+    if (settings.integrator != Integrator::walk || settings.medium) return notes;
+    DERMIS_TRY_ASSIGN(const Profile profile, find_profile(scene.skin.profile));
+    for (std::string note : {walk_volume_note(profile), facets_note(scene)})
+        if (!note.empty()) notes.push_back(std::move(note));
+    return notes;
 }
-
-}  // namespace
 
 Result<ScatteringMedium> medium_of_scene(const Scene& scene) {
     DERMIS_TRY_ASSIGN(Profile profile, find_profile(scene.skin.profile));
@@ -119,16 +160,20 @@ Result<ScatteringMedium> medium_of_scene(const Scene& scene) {
 }
 
 Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSettings& settings,
-                                          const ReferenceProgress& progress, const std::atomic<bool>* stop) {
-    DERMIS_TRY(check_settings(settings));
+                                          const ReferenceProgress& progress, const std::atomic<bool>* stop,
+                                          const ReferencePreview& preview) {
+    DERMIS_TRY(check(settings));
     const auto start = std::chrono::steady_clock::now();
     DERMIS_TRY_ASSIGN(std::unique_ptr<PixelSampler> sampler, PixelSampler::create(scene, settings));
     Canvas canvas = empty_canvas(settings);
     double error = 0;
     int pass = 0;
     while (pass < settings.samples) {
-        if (!run_pass(*sampler, pass, canvas, stop)) break;
+        if (!(pass == 0 && preview ? run_first_pass(*sampler, canvas, stop, preview)
+                                   : run_pass(*sampler, pass, canvas, stop)))
+            break;
         ++pass;
+        if (preview && pass > 1 && std::has_single_bit(unsigned(pass))) preview(radiance_so_far(canvas, 1));
         if (settings.noise && pass >= 2) {
             const std::vector<float> errors = relative_errors(canvas.sums);
             error = root_mean_square(errors);
@@ -141,11 +186,8 @@ Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSet
     }
     if (pass == 0) return Error{"stopped before the first pass was complete: there is no picture yet"};
     ReferencePicture picture = picture_of(canvas.sums);
-    if (settings.integrator == Integrator::walk && !settings.medium) {
-        DERMIS_TRY_ASSIGN(const Profile profile, find_profile(scene.skin.profile));
-        if (std::string note = walk_volume_note(profile); !note.empty()) picture.warnings.push_back(note);
-        if (std::string note = facets_note(scene); !note.empty()) picture.warnings.push_back(note);
-    }
+    DERMIS_TRY_ASSIGN(const std::vector<std::string> notes, walk_notes(scene, settings));
+    picture.warnings.insert(picture.warnings.end(), notes.begin(), notes.end());
     picture.passes = pass;
     picture.reached_noise = !settings.noise || picture.relative_error <= *settings.noise;
     picture.time_ms =
@@ -172,7 +214,7 @@ Result<void> check_range(const ReferenceSettings& settings, SampleRange range) {
 
 Result<PictureSums> sum_samples(const Scene& scene, const ReferenceSettings& settings, SampleRange range,
                                 const ReferenceProgress& progress, const std::atomic<bool>* stop) {
-    DERMIS_TRY(check_settings(settings));
+    DERMIS_TRY(check(settings));
     DERMIS_TRY(check_range(settings, range));
     DERMIS_TRY_ASSIGN(std::unique_ptr<PixelSampler> sampler, PixelSampler::create(scene, settings));
     Canvas canvas = empty_canvas(settings);

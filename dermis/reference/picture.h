@@ -45,7 +45,8 @@ struct ReferenceSettings {
     Normalisation normalisation = Normalisation::by_area;
     Cavities cavities = Cavities::flesh;
     PixelFilter filter = PixelFilter::box;
-    int grid = 4;  ///< PixelFilter::grid: cells on a side, 1..16; samples are a multiple of its square
+    int grid =
+        4;  ///< PixelFilter::grid: cells on a side, 1..16; of a picture, samples are a multiple of its square
     LightingSettings lighting;               ///< entry_eta is set from medium and `entry`
     LightEntry entry = LightEntry::fresnel;  ///< walk
     std::optional<ScatteringMedium> medium;  ///< walk: else walk_medium_of the scene's profile
@@ -71,13 +72,25 @@ struct ReferencePicture {
 /// Called after every pass, between 0 and 1.
 using ReferenceProgress = std::function<void(double done)>;
 
+/// Called with the radiance so far, linear RGBA, every pixel filled: during the first pass from every fourth
+/// and every second pixel of each direction, then after 1, 2, 4, 8 ... passes.
+using ReferencePreview = std::function<void(const Image& radiance)>;
+
 /// One sample a pixel a pass; from the sixteenth pass on, sampling stops for pixels whose neighbourhood has
 /// reached the wanted error. Setting `stop` ends it after the rows in work and returns the picture so far (an
 /// error when not even the first pass is complete). Otherwise the result depends on the settings alone, not
 /// on the threads. Errors: sizes out of range, unreadable maps, walk without a medium.
 [[nodiscard]] Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSettings& settings,
                                                         const ReferenceProgress& progress = {},
-                                                        const std::atomic<bool>* stop = nullptr);
+                                                        const std::atomic<bool>* stop = nullptr,
+                                                        const ReferencePreview& preview = {});
+
+/// Errors: sizes and numbers out of range.
+[[nodiscard]] Result<void> check(const ReferenceSettings& settings);
+
+/// What limits `walk` in this scene: the volume of its profile, facets. Errors: as medium_of_scene.
+[[nodiscard]] Result<std::vector<std::string>> walk_notes(const Scene& scene,
+                                                          const ReferenceSettings& settings);
 
 /// The medium that `walk` takes when none is given. Errors: the scene's profile is not known.
 [[nodiscard]] Result<ScatteringMedium> medium_of_scene(const Scene& scene);

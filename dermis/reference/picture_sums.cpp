@@ -17,12 +17,8 @@ struct ChannelAdder {
     PixelState& pixel;
     size_t cut = 0;
 
-    float fitting(float value) {
-        if (std::abs(value) <= kBrightest) return value;
-        ++cut;
-        return std::isnan(value) ? 0 : std::copysign(kBrightest, value);
-    }
-    Vec3 fitting(Vec3 value) { return {fitting(value.x), fitting(value.y), fitting(value.z)}; }
+    float fitting(float value) { return within_brightest(value, cut); }
+    Vec3 fitting(Vec3 value) { return within_brightest(value, cut); }
     void add(const SumLayout& layout, Vec3 value) {
         pixel.sums[layout.first].add(value.x);
         pixel.sums[layout.first + 1].add(value.y);
@@ -84,21 +80,32 @@ std::string percent_text(double percent) {
     return text;
 }
 
-void add_warnings(const PictureSums& sums, std::vector<std::string>& warnings) {
+}  // namespace
+
+float within_brightest(float value, size_t& cut) {
+    if (std::abs(value) <= kBrightest) return value;
+    ++cut;
+    return std::isnan(value) ? 0 : std::copysign(kBrightest, value);
+}
+
+Vec3 within_brightest(Vec3 value, size_t& cut) {
+    return {within_brightest(value.x, cut), within_brightest(value.y, cut), within_brightest(value.z, cut)};
+}
+
+void add_fault_warnings(size_t walks, size_t lost_walks, size_t cut_channels,
+                        std::vector<std::string>& warnings) {
     // What fewer take away is far below the noise of any picture.
     constexpr double kLostShare = 1e-5;
-    if (double(sums.lost_walks) > kLostShare * double(sums.walks))
+    if (double(lost_walks) > kLostShare * double(walks))
         warnings.push_back(
-            percent_text(100 * double(sums.lost_walks) / double(sums.walks)) +
+            percent_text(100 * double(lost_walks) / double(walks)) +
             " of the walks were lost: the skin has holes, and the picture is too dark near them");
-    if (sums.cut_channels > 0)
+    if (cut_channels > 0)
         warnings.push_back(
-            std::to_string(sums.cut_channels) + " channels of samples were not finite, or above " +
+            std::to_string(cut_channels) + " channels of samples were not finite, or above " +
             std::to_string(int(kBrightest)) +
             " and counted as that: lower the lights, or raise the roughness that they reflect in");
 }
-
-}  // namespace
 
 void EarlySpread::add(Vec3 value) {
     const Vec3 before = value - mean;
@@ -214,7 +221,7 @@ ReferencePicture picture_of(const PictureSums& sums) {
     picture.relative_error = most >= 2 ? root_mean_square(relative_errors(sums)) : 0;
     picture.walks = sums.walks;
     picture.lost_walks = sums.lost_walks;
-    add_warnings(sums, picture.warnings);
+    add_fault_warnings(sums.walks, sums.lost_walks, sums.cut_channels, picture.warnings);
     return picture;
 }
 

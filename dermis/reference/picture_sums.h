@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -42,6 +43,9 @@ inline constexpr size_t kSumCount = 15;
 /// A sample's channels count up to this; brighter ones as this. 65,536 of them, and the squares of as many
 /// blocks, stay within ExactSum::kMost.
 inline constexpr float kBrightest = 0x1p22f;
+/// 0 for NaN. Counts in `cut` what is changed.
+[[nodiscard]] float within_brightest(float value, size_t& cut);
+[[nodiscard]] Vec3 within_brightest(Vec3 value, size_t& cut);
 
 /// Sums of squared differences from the mean of single samples, updated as in Welford 1962. Used for the
 /// error of pictures of less than two blocks alone, which no range of samples is.
@@ -69,6 +73,10 @@ struct PixelState {
     [[nodiscard]] Vec3 variance() const;
     [[nodiscard]] float luminance_variance() const;
 };
+
+/// A line each for walks that found no way out and channels that were cut.
+void add_fault_warnings(size_t walks, size_t lost_walks, size_t cut_channels,
+                        std::vector<std::string>& warnings);
 
 struct PictureSums {
     int width = 0, height = 0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 
 #include "dermis/base/angle.h"
 #include "dermis/base/cache.h"
@@ -28,12 +30,18 @@ void face_the_eye(ShadingPoint& point, Vec3 to_eye) {
     point.p_smooth_mm = point.p_mm;
 }
 
-Vec2 place_in_pixel(const ReferenceSettings& settings, uint32_t index, OwenSequence& random) {
-    if (settings.filter == PixelFilter::box) return random.next_2d();
-    if (settings.filter == PixelFilter::center) return {0.5f, 0.5f};
-    const auto side = uint32_t(settings.grid);
-    const uint32_t cell = index % (side * side);
-    return Vec2{float(cell % side) + 0.5f, float(cell / side) + 0.5f} * (1 / float(side));
+LightingSettings without_entry(LightingSettings settings) {
+    settings.entry_eta = 1;
+    return settings;
+}
+
+// Steps of the golden ratio through the cells, row by row, so that few samples lie apart (Weyl 1916). Without
+// a common divisor every cell is met once.
+uint32_t golden_step(int grid) {
+    const auto cells = uint32_t(grid * grid);
+    auto step = uint32_t(std::lround(double(cells) / std::numbers::phi));
+    while (std::gcd(step, cells) != 1) ++step;
+    return step;
 }
 
 // Of diffuse light, by walks; a second or two, then from the cache.
@@ -76,7 +84,7 @@ Result<std::vector<ScatteringMedium>> media_of(const ReferenceSettings& settings
 PixelSampler::PixelSampler(const Scene& scene, const ReferenceSettings& settings, RayScene rays,
                            MaterialSet materials, EnvironmentSampler environment,
                            SplitSumReflection reflection, std::optional<BrdfTable> brdf,
-                           const LightingSettings& lighting)
+                           const LightingSettings& lighting, Measure measure)
     : scene_(scene),
       settings_(settings),
       rays_(std::move(rays)),
@@ -84,7 +92,11 @@ PixelSampler::PixelSampler(const Scene& scene, const ReferenceSettings& settings
       environment_(std::move(environment)),
       reflection_(std::move(reflection)),
       brdf_(std::move(brdf)),
-      lighting_(scene_, rays_, materials_, environment_, lighting, &reflection_, brdf_ ? &*brdf_ : nullptr) {
+      lighting_(scene_, rays_, materials_, environment_, lighting, &reflection_, brdf_ ? &*brdf_ : nullptr),
+      unscattered_lighting_(scene_, rays_, materials_, environment_, without_entry(lighting), &reflection_,
+                            brdf_ ? &*brdf_ : nullptr),
+      measure_(measure),
+      cell_step_(golden_step(settings.grid)) {
     const float aspect = float(settings.width) / float(settings.height);
     inverse_view_projection_ = camera_matrices(scene.camera, aspect).inverse_view_projection;
 }
@@ -107,7 +119,8 @@ void PixelSampler::use_medium(const ScatteringMedium& medium) {
 }
 
 Result<std::unique_ptr<PixelSampler>> PixelSampler::create(const Scene& scene,
-                                                           const ReferenceSettings& settings) {
+                                                           const ReferenceSettings& settings,
+                                                           Measure measure) {
     DERMIS_TRY_ASSIGN(std::vector<Flesh> flesh, find_flesh(scene.objects, settings.cavities));
     DERMIS_TRY_ASSIGN(RayScene rays, RayScene::build(scene.objects, flesh));
     DERMIS_TRY_ASSIGN(MaterialSet materials, MaterialSet::load(scene));
@@ -131,9 +144,9 @@ Result<std::unique_ptr<PixelSampler>> PixelSampler::create(const Scene& scene,
         DERMIS_TRY_ASSIGN(media, media_of(settings, profiles));
         lighting.entry_eta = settings.entry == LightEntry::fresnel ? media.front().eta : 1;
     }
-    std::unique_ptr<PixelSampler> sampler(new PixelSampler(scene, settings, std::move(rays),
-                                                           std::move(materials), std::move(*environment),
-                                                           std::move(reflection), std::move(brdf), lighting));
+    std::unique_ptr<PixelSampler> sampler(
+        new PixelSampler(scene, settings, std::move(rays), std::move(materials), std::move(*environment),
+                         std::move(reflection), std::move(brdf), lighting, measure));
     if (media.size() != 1) sampler->profiles_ = profiles;
     for (const ScatteringMedium& medium : media)
         if (walks) sampler->use_medium(medium);
@@ -143,6 +156,16 @@ Result<std::unique_ptr<PixelSampler>> PixelSampler::create(const Scene& scene,
             sampler->use_profile(profile);
         }
     return sampler;
+}
+
+// Each round over the cells begins at a cell by chance, so that the mean over a part of a round has no bias.
+Vec2 PixelSampler::place_in_pixel(uint32_t pixel, uint32_t index) const {
+    if (settings_.filter == PixelFilter::box) return OwenSequence(pixel, index).next_2d();
+    if (settings_.filter == PixelFilter::center) return {0.5f, 0.5f};
+    const auto side = uint32_t(settings_.grid);
+    const uint32_t cells = side * side, first = hash_u32(hash_u32(pixel, 0), index / cells) % cells;
+    const uint32_t cell = (first + index % cells * cell_step_) % cells;
+    return Vec2{float(cell % side) + 0.5f, float(cell / side) + 0.5f} * (1 / float(side));
 }
 
 Ray PixelSampler::camera_ray(int x, int y, Vec2 within) const {
@@ -166,23 +189,42 @@ UvFootprint PixelSampler::footprint(const Seen& seen, Vec3 p_mm) const {
 }
 
 // Skin that scatters in part: the rest of its light leaves where it entered.
-Vec3 PixelSampler::exitance(const ShadingPoint& point, const UvFootprint& footprint,
-                            const LightingRandom& random, uint32_t seed, PixelSample& sample) const {
-    if (point.material_class != MaterialClass::skin) return lighting_.irradiance(receiver_of(point), random);
-    const float scatter = surface_.empty() && walk_.empty() ? 0 : point.scatter;
+PixelSampler::DiffuseLight PixelSampler::diffuse_light(const Seen& seen, const ShadingPoint& point,
+                                                       const UvFootprint& footprint,
+                                                       const LightingRandom& random, uint32_t seed,
+                                                       PixelSample& sample) const {
     const Receiver receiver = receiver_of(point);
-    Vec3 unscattered;
-    if (scatter < 1 || (!walk_.empty() && subtracts_flat()))
-        unscattered = mean_irradiance(lighting_, receiver, seed, settings_.probes);
-    if (scatter == 0) return unscattered;
-    const Vec3 sum = unscattered * (1 - scatter);
+    if (point.material_class != MaterialClass::skin) return {lighting_.irradiance(receiver, random), {}};
+    const float scatter = surface_.empty() && walk_.empty() ? 0 : point.scatter;
+    const bool reflects = lighting_.settings().entry_eta > 1;  // where light enters the medium
+    const bool measures = measure_ == Measure::effect;
+    const bool walks = !walk_.empty();
+    const auto own_light = [&](const Lighting& lighting) {
+        return mean_irradiance(lighting, receiver, seed, settings_.probes);
+    };
+    // Without scattering, all samples of a pixel have points of the lights that lie evenly together.
+    if (scatter == 0)
+        return {mean_irradiance(lighting_, receiver, seen.pixel_seed, settings_.probes,
+                                seen.index * uint32_t(settings_.probes)),
+                {}};
+    Vec3 own, spread;
+    const bool needs_own = scatter < 1 || (walks && subtracts_flat()) || (measures && !reflects);
     const DiffusePoint diffuse{point.p_mm, point.n_geometry, point.n_face, footprint};
     const size_t profile = profile_index(scene_, profiles_, scene_.objects[point.object], point.material);
-    if (!surface_.empty()) return sum + surface_[profile].exitance(diffuse, receiver, seed) * scatter;
-    const WalkIntegrator::Result walked = walk_[profile].exitance(diffuse, receiver, unscattered, seed);
-    sample.walks += settings_.probes;
-    sample.lost_walks += walked.lost;
-    return sum + walked.exitance * scatter;
+    if (walks) {
+        if (needs_own) own = own_light(lighting_);
+        const WalkIntegrator::Result walked = walk_[profile].exitance(diffuse, receiver, own, seed);
+        sample.walks += settings_.probes;
+        sample.lost_walks += walked.lost;
+        spread = walked.exitance;
+    } else {
+        const SurfaceIntegrator::Result found = surface_[profile].estimate(diffuse, receiver, seed);
+        if (needs_own) own = found.own ? *found.own : own_light(lighting_);
+        spread = found.exitance;
+    }
+    const Vec3 exitance = own * (1 - scatter) + spread * scatter;
+    if (!measures) return {exitance, {}};
+    return {exitance, exitance - (reflects ? own_light(unscattered_lighting_) : own)};
 }
 
 MaterialClass PixelSampler::add_surface(const Seen& seen, Vec3 weight, uint32_t seed,
@@ -194,9 +236,11 @@ MaterialClass PixelSampler::add_surface(const Seen& seen, Vec3 weight, uint32_t 
     face_the_eye(point, to_eye);
     OwenSequence uniform(seed, 0);
     const LightingRandom random{uniform.next_2d(), uniform.next_2d(), uniform.next_1d()};
-    const Vec3 m = exitance(point, surface.footprint, random, seed, sample);
-    const Vec3 albedo = point.albedo_linear * ((1 - point.metallic) * lighting_.diffuse_exit(point, to_eye));
-    sample.diffuse += weight * (albedo * m * (point.opacity / kPi) + point.emission_linear);
+    const DiffuseLight light = diffuse_light(seen, point, surface.footprint, random, seed, sample);
+    const Vec3 leaves = point.albedo_linear * ((1 - point.metallic) * lighting_.diffuse_exit(point, to_eye) *
+                                               (point.opacity / kPi));
+    sample.diffuse += weight * (leaves * light.exitance + point.emission_linear);
+    sample.scattered += weight * leaves * light.scattered;
     sample.specular += weight * lighting_.specular_radiance(point, to_eye, random);
     return point.material_class;
 }
@@ -226,10 +270,9 @@ float PixelSampler::add_translucent(Seen seen, float through, uint32_t& seed, Pi
     return through;
 }
 
-PixelSample PixelSampler::sample(int x, int y, uint32_t index) const {
-    const uint32_t pixel = hash_u32(settings_.seed, uint32_t(x), uint32_t(y));
-    OwenSequence camera(pixel, index);
-    const Vec2 within = place_in_pixel(settings_, index, camera);
+PixelSample PixelSampler::sample(uint32_t of_seed, int x, int y, uint32_t index) const {
+    const uint32_t pixel = hash_u32(of_seed, uint32_t(x), uint32_t(y));
+    const Vec2 within = place_in_pixel(pixel, index);
     Ray ray = camera_ray(x, y, within);
     PixelSample result;
     float through = 1;
@@ -239,11 +282,12 @@ PixelSample PixelSampler::sample(int x, int y, uint32_t index) const {
     for (int layer = 1; layer <= kMostLayers; ++layer) {
         const std::optional<RayHit> solid = rays_.closest_hit(RaySet::opaque, ray);
         if (solid) ray.max_mm = solid->distance_mm;
-        through = add_translucent({{}, ray, x, y, within}, through, seed, result);
+        through = add_translucent({{}, ray, x, y, within, pixel, index}, through, seed, result);
         if (!solid) break;
         const float opacity = layer < kMostLayers ? opacity_at(*solid) : 1;
-        const MaterialClass seen = add_surface(
-            {*solid, ray, x, y, within}, Vec3{1, 1, 1} * (through * opacity), seed = hash_u32(seed), result);
+        const MaterialClass seen =
+            add_surface({*solid, ray, x, y, within, pixel, index}, Vec3{1, 1, 1} * (through * opacity),
+                        seed = hash_u32(seed), result);
         result.coverage += through * opacity;
         if (seen == MaterialClass::skin) result.skin = through;
         if (opacity == 1) return result;

@@ -10,35 +10,48 @@ namespace dermis::inline reference {
 
 struct PixelSample {
     Vec3 diffuse, specular, background;
+    Vec3 scattered;  ///< what scattering adds to `diffuse`; Measure::effect
     float coverage = 0;
     float skin = 0;  ///< share of what is seen that is skin
     int walks = 0, lost_walks = 0;
     [[nodiscard]] Vec3 radiance() const { return diffuse + specular + background; }
 };
 
+/// What samples are for. effect: PixelSample::scattered too, which may take more shadow rays.
+enum class Measure { picture, effect };
+
 /// Everything a picture needs, loaded once; safe from any thread afterwards. Not movable: parts refer to each
 /// other.
 class PixelSampler {
   public:
     [[nodiscard]] static Result<std::unique_ptr<PixelSampler>> create(const Scene& scene,
-                                                                      const ReferenceSettings& settings);
-    /// Sample `index` of the pixel; depends on seed, pixel and index alone.
-    [[nodiscard]] PixelSample sample(int x, int y, uint32_t index) const;
+                                                                      const ReferenceSettings& settings,
+                                                                      Measure measure = Measure::picture);
+    /// Sample `index` of the pixel; depends on seed, pixel and index alone. Of PixelFilter::grid, every
+    /// number of samples has the expected mean of all cells, and each run of grid^2 from a multiple of it has
+    /// each cell once.
+    [[nodiscard]] PixelSample sample(uint32_t seed, int x, int y, uint32_t index) const;
+    /// By the seed of the settings.
+    [[nodiscard]] PixelSample sample(int x, int y, uint32_t index) const {
+        return sample(settings_.seed, x, y, index);
+    }
 
   private:
     PixelSampler(const Scene& scene, const ReferenceSettings& settings, RayScene rays, MaterialSet materials,
                  EnvironmentSampler environment, SplitSumReflection reflection, std::optional<BrdfTable> brdf,
-                 const LightingSettings& lighting);
+                 const LightingSettings& lighting, Measure measure);
     void use_profile(const Profile& profile);
     void use_medium(const ScatteringMedium& medium);
 
+    [[nodiscard]] Vec2 place_in_pixel(uint32_t pixel, uint32_t index) const;
     [[nodiscard]] Ray camera_ray(int x, int y, Vec2 within) const;
-    /// A surface with the ray that sees it, the pixel it is seen in and where in the pixel.
+    /// A surface with the ray that sees it, the pixel it is seen in and where in the pixel, by which sample.
     struct Seen {
         RayHit hit;
         Ray ray;
         int x, y;
         Vec2 within;
+        uint32_t pixel_seed, index;
     };
     [[nodiscard]] UvFootprint footprint(const Seen& seen, Vec3 p_mm) const;
     /// Opacity of a hit on an opaque or blended surface.
@@ -50,8 +63,14 @@ class PixelSampler {
         return settings_.normalisation == Normalisation::by_area &&
                lighting_.settings().ambient == AmbientModel::renderer;
     }
-    [[nodiscard]] Vec3 exitance(const ShadingPoint& point, const UvFootprint& footprint,
-                                const LightingRandom& random, uint32_t seed, PixelSample& sample) const;
+    /// Over albedo.
+    struct DiffuseLight {
+        Vec3 exitance;
+        Vec3 scattered;  ///< what scattering adds to it; Measure::effect
+    };
+    [[nodiscard]] DiffuseLight diffuse_light(const Seen& seen, const ShadingPoint& point,
+                                             const UvFootprint& footprint, const LightingRandom& random,
+                                             uint32_t seed, PixelSample& sample) const;
 
     const Scene& scene_;
     ReferenceSettings settings_;
@@ -61,6 +80,9 @@ class PixelSampler {
     SplitSumReflection reflection_;
     std::optional<BrdfTable> brdf_;
     Lighting lighting_;
+    Lighting unscattered_lighting_;  ///< of `lambert`: nothing is reflected where light enters the medium
+    Measure measure_;
+    uint32_t cell_step_;  ///< from the cell of one sample to that of the next
     Mat4 inverse_view_projection_;
     std::vector<std::string> profiles_;       ///< skin_profiles(); empty where `settings` has a medium
     std::vector<SurfaceIntegrator> surface_;  ///< one a profile; empty: no surface integral

@@ -106,14 +106,17 @@ LightingRandom lighting_random(uint32_t seed, uint32_t index) {
     return {penumbra, environment, uniform.next_1d()};
 }
 
-Vec3 mean_irradiance(const Lighting& lighting, const Receiver& receiver, uint32_t seed, int count) {
+Vec3 mean_irradiance(const Lighting& lighting, const Receiver& receiver, uint32_t seed, int count,
+                     uint32_t first) {
     if (lighting.is_exact()) return lighting.irradiance(receiver, {});
     Vec3 sum;
-    for (int i = 0; i < count; ++i) sum += lighting.irradiance(receiver, lighting_random(seed, uint32_t(i)));
+    for (int i = 0; i < count; ++i)
+        sum += lighting.irradiance(receiver, lighting_random(seed, first + uint32_t(i)));
     return sum * (1 / float(count));
 }
 
-Vec3 SurfaceIntegrator::exitance(const DiffusePoint& point, const Receiver& receiver, uint32_t seed) const {
+SurfaceIntegrator::Result SurfaceIntegrator::estimate(const DiffusePoint& point, const Receiver& receiver,
+                                                      uint32_t seed) const {
     const Disks disks = disks_around(point.n_geometry);
     const bool subtracts = settings_.normalisation == Normalisation::by_area && !lighting_.is_exact();
     Sums half[2];
@@ -131,13 +134,16 @@ Vec3 SurfaceIntegrator::exitance(const DiffusePoint& point, const Receiver& rece
             }
     const float share = 1 / float(settings_.probes);
     const Sums all{half[0].irradiance + half[1].irradiance, half[0].reflectance + half[1].reflectance};
-    if (settings_.normalisation == Normalisation::none) return all.irradiance * share;
+    if (settings_.normalisation == Normalisation::none) return {all.irradiance * share, std::nullopt};
     const Vec3 a = quotient(half[0].irradiance, half[0].reflectance);
     const Vec3 b = quotient(half[1].irradiance, half[1].reflectance);
     const Vec3 m = quotient(all.irradiance, all.reflectance), wa = half[0].reflectance,
                wb = half[1].reflectance;
-    return own * share + Vec3{jackknife(m.x, a.x, b.x, wa.x, wb.x), jackknife(m.y, a.y, b.y, wa.y, wb.y),
-                              jackknife(m.z, a.z, b.z, wa.z, wb.z)};
+    const Vec3 spread = {jackknife(m.x, a.x, b.x, wa.x, wb.x), jackknife(m.y, a.y, b.y, wa.y, wb.y),
+                         jackknife(m.z, a.z, b.z, wa.z, wb.z)};
+    if (!subtracts) return {spread, std::nullopt};
+    own = own * share;
+    return {own + spread, own};
 }
 
 Estimate estimate_exitance(const SurfaceIntegrator& integrator, const DiffusePoint& point,

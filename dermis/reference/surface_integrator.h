@@ -21,6 +21,7 @@
 // noise of the penumbra mostly does where y is near x.
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "dermis/rays/sampling.h"
@@ -54,9 +55,16 @@ class SurfaceIntegrator {
                       const SurfaceIntegratorSettings& settings)
         : rays_(rays), lighting_(lighting), profile_(std::move(profile)), settings_(settings) {}
 
-    /// Radiant exitance over albedo, linear, by one set of probes. Estimates with different seeds are
-    /// independent. `receiver` is the point's; it is read only where the lighting is not exact.
-    [[nodiscard]] Vec3 exitance(const DiffusePoint& point, const Receiver& receiver, uint32_t seed) const;
+    struct Result {
+        Vec3 exitance;            ///< over albedo, linear
+        std::optional<Vec3> own;  ///< mean of E(x, u_i), where it was subtracted
+    };
+    /// By one set of probes. Estimates with different seeds are independent. `receiver` is the point's; it is
+    /// read only where the lighting is not exact.
+    [[nodiscard]] Result estimate(const DiffusePoint& point, const Receiver& receiver, uint32_t seed) const;
+    [[nodiscard]] Vec3 exitance(const DiffusePoint& point, const Receiver& receiver, uint32_t seed) const {
+        return estimate(point, receiver, seed).exitance;
+    }
 
   private:
     struct Sums {
@@ -90,9 +98,10 @@ class SurfaceIntegrator {
 /// Numbers `index` of the light at a sample's point. The picture without scattering takes the same.
 [[nodiscard]] LightingRandom lighting_random(uint32_t seed, uint32_t index);
 
-/// The irradiance of a receiver by the same numbers as an exitance of `count` probes.
+/// The irradiance of a receiver by numbers first .. first + count - 1; from 0 on, the same as of an exitance
+/// by `count` probes.
 [[nodiscard]] Vec3 mean_irradiance(const Lighting& lighting, const Receiver& receiver, uint32_t seed,
-                                   int count);
+                                   int count, uint32_t first = 0);
 
 /// Mean of independent estimates with the standard error that they show.
 struct Estimate {

@@ -277,17 +277,6 @@ TEST_F(BadInput, output_paths_reach_the_terminal_as_printable_text) {
     }
 }
 
-TEST_F(BadInput, samples_too_few_for_two_halves_are_refused_by_the_flags_name) {
-    expect_error(
-        "compare spheres --size 16x16 -t lambert --samples-per-pixel 4 --samples 7 -o " + path("out"),
-        "--samples 7: at least twice --samples-per-pixel, 8");
-    // By the size, where the flag is missing.
-    for (const auto& [side, points] : {std::pair("64", 36), {"192", 16}, {"512", 4}})
-        expect_error(
-            "compare spheres -t lambert --samples 7 --size " + std::string(side) + " -o " + path("out"),
-            "--samples 7: at least twice --samples-per-pixel, " + std::to_string(2 * points));
-}
-
 TEST_F(BadInput, help_of_every_command_has_an_example_and_lines_of_at_most_80_columns) {
     const auto expect_fits = [](const std::string& name, const std::string& text) {
         std::istringstream lines(text);

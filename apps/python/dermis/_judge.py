@@ -133,7 +133,7 @@ class ClipComparison:
 
 def compare(scene: Path, techniques: str | Iterable[str] | None=None, *, size: Size | None=None,
             pictures: Mapping[str, tuple[ArrayLike, ArrayLike]] | None=None,
-            integrator: str='both', ambient: str='renderer', samples_per_pixel: int | None=None, noise: float=0.2,
+            integrator: str='both', ambient: str='renderer', samples_per_pixel: int | None=None, noise: float=0.25,
             samples: int=2048, timed_frames: int=5, device: str='', camera: Words=None, light: Words=None, keys: Words=None,
             clip: str='', time: float | None=None, morph: Words=None, frames: int | None=None, fps: float=0,
             rest_bakes: str | Iterable[str]='',
