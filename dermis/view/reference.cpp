@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "dermis/base/text.h"
 #include "dermis/image/io.h"
@@ -11,6 +12,8 @@
 
 namespace dermis::view {
 namespace {
+
+constexpr const char* kReferenceName = "reference";
 
 // Eight bits for the display: light through the scene's exposure and tone map, other pictures as they are.
 Image for_display(const Image& picture, const Scene& scene) {
@@ -56,11 +59,41 @@ void Reference::ask(const Model& model, PictureSize size) {
     const ReferenceSettings settings = comparison_settings(size.width, size.height).reference;
     stop_ = false;
     done_ = 0;
+    shows_preview_ = false;
+    preview_ = Image();
     asked_view_ = hash_of_views(*model.scene);
     making_ = std::async(std::launch::async, [this, settings, scene = *model.scene] {
         return cached_reference(
-            scene, settings, [this](double done) { done_ = float(done); }, &stop_);
+            scene, settings, [this](double done) { done_ = float(done); }, &stop_,
+            [this](const Image& radiance) {
+                const std::lock_guard lock(preview_mutex_);
+                preview_ = radiance;
+            });
     });
+}
+
+bool Reference::is_replaced(const Model& model) const {
+    return shows_preview_ && model.reference_path != kReferenceName;
+}
+
+// A comparison that was switched off meanwhile stays so.
+void Reference::show(Image radiance, Model& model) {
+    if (!shows_preview_) return put(std::move(radiance), asked_view_, kReferenceName, model);
+    picture_ = std::move(radiance);
+    texture_key_.clear();
+}
+
+bool Reference::take_preview(Model& model) {
+    if (is_replaced(model)) stop_ = true;
+    Image latest;
+    {
+        const std::lock_guard lock(preview_mutex_);
+        latest = std::exchange(preview_, Image());
+    }
+    if (latest.empty() || stop_) return false;
+    show(std::move(latest), model);
+    shows_preview_ = true;
+    return true;
 }
 
 bool Reference::take(Model& model, double now_s) {
@@ -68,12 +101,13 @@ bool Reference::take(Model& model, double now_s) {
     if (making_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
         model.notices.inform("reference", "reference: " + std::to_string(int(done_ * 100)) + " %   (G stops)",
                              now_s);
-        return false;
+        return take_preview(model);
     }
     Result<CachedReference> made = making_.get();
     model.notices.clear("reference");
+    if (is_replaced(model)) return true;
     if (made)
-        put(std::move(made->picture.radiance), asked_view_, "reference", model);
+        show(std::move(made->picture.radiance), model);
     else if (!stop_)
         model.notices.report_error("reference", made.error().message);
     return true;

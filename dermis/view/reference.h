@@ -1,8 +1,10 @@
 #pragma once
-// The right side when it is a picture: a file, or the reference, which is rendered in the background.
+// The right side when it is a picture: a file, or the reference, which is rendered in the background and
+// shown while it is refined.
 
 #include <atomic>
 #include <future>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -25,7 +27,7 @@ class Reference {
     void open(const std::string& path, Model& model);
     /// Begins to make the reference of what is seen, or stops making it.
     void ask(const Model& model, PictureSize size);
-    /// True when one has come, or failed to.
+    /// True when one has come, finer or the last, or failed to.
     [[nodiscard]] bool take(Model& model, double now_s);
     [[nodiscard]] bool is_making() const { return making_.valid(); }
 
@@ -41,13 +43,21 @@ class Reference {
 
   private:
     void put(Image picture, std::string view, const std::string& name, Model& model);
+    /// The reference so far, or the last one.
+    void show(Image radiance, Model& model);
+    [[nodiscard]] bool take_preview(Model& model);
+    /// Something else was put on the right while the reference was shown.
+    [[nodiscard]] bool is_replaced(const Model& model) const;
 
     Image picture_;
     std::string view_, asked_view_;
     std::optional<gpu::Texture> texture_;
     std::string texture_key_;
     std::atomic<bool> stop_ = false;
-    std::atomic<float> done_ = 0;                  ///< 0..1
+    std::atomic<float> done_ = 0;  ///< 0..1
+    bool shows_preview_ = false;
+    std::mutex preview_mutex_;
+    Image preview_;                                ///< empty when the latest is shown
     std::future<Result<CachedReference>> making_;  // last: waits for its task before the rest goes
 };
 
