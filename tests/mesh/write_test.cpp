@@ -95,6 +95,25 @@ TEST(WriteGlb, reads_back_as_it_was) {
     EXPECT_EQ(n.scattering->diffuse_transmission, m.scattering->diffuse_transmission);
 }
 
+TEST(WriteGlb, numbers_vertices_in_16_bits_where_they_fit) {
+    const TemporaryDirectory dir;
+    for (const uint32_t count : {65535u, 65536u}) {
+        Mesh mesh = {.indices = {0, 1, count - 1}, .submeshes = {{"", 0, 3, 0}}, .materials = {{}}};
+        for (uint32_t v = 0; v < count; ++v)
+            mesh.positions_mm.push_back({float(v % 256), float(v / 256), float(v % 3)});
+        const auto glb = glb_bytes(mesh);
+        ASSERT_TRUE(glb) << glb.error().message;
+        const std::string text(reinterpret_cast<const char*>(glb->data()), 2000);
+        EXPECT_EQ(text.find("\"componentType\":5123") != std::string::npos, count == 65535) << count;
+        ASSERT_TRUE(write_file(dir.path / "a.glb", *glb));
+        const auto back = read_mesh(dir.path / "a.glb");
+        ASSERT_TRUE(back) << back.error().message;
+        ASSERT_EQ(back->mesh.indices.size(), 3u);
+        EXPECT_LT(length(back->mesh.positions_mm[back->mesh.indices[2]] - mesh.positions_mm[count - 1]),
+                  1e-3f);
+    }
+}
+
 TEST(WriteGlb, refuses_maps_it_cannot_embed_and_writes_nothing) {
     const TemporaryDirectory dir;
     Mesh mesh = make_plane(1, 1);

@@ -18,6 +18,14 @@ using OrderedJson = nlohmann::ordered_json;
 
 enum : int { kU16 = 5123, kU32 = 5125, kF32 = 5126, kArrayBuffer = 34962, kElementArrayBuffer = 34963 };
 
+/// Numbers of vertices as a view holds them.
+struct PackedIndices {
+    std::vector<std::byte> bytes;
+    int component = kU32;
+};
+/// In 16 bits where all numbers of `vertices` fit; glTF keeps the largest one free.
+[[nodiscard]] PackedIndices packed_indices(std::span<const uint32_t> indices, size_t vertices);
+
 struct GlbContent {
     OrderedJson root;
     std::vector<std::byte> binary;  ///< the one buffer

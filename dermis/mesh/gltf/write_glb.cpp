@@ -178,6 +178,16 @@ Result<std::vector<std::byte>> assemble(const GlbContent& glb) {
 
 namespace gltf {
 
+PackedIndices packed_indices(std::span<const uint32_t> indices, size_t vertices) {
+    if (vertices > UINT16_MAX) {
+        const auto bytes = std::as_bytes(indices);
+        return {{bytes.begin(), bytes.end()}, kU32};
+    }
+    const std::vector<uint16_t> narrow(indices.begin(), indices.end());
+    const auto bytes = std::as_bytes(std::span(narrow));
+    return {{bytes.begin(), bytes.end()}, kU16};
+}
+
 size_t GlbContent::add_view(std::span<const std::byte> bytes, std::optional<int> target) {
     Json view = {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}};
     if (target) view["target"] = *target;
@@ -219,10 +229,11 @@ size_t GlbContent::add_changes(const std::vector<Vec3>& changes, bool bounded) {
     } else {
         Json accessor = {{"componentType", kF32}, {"count", changes.size()}, {"type", "VEC3"}};
         if (!values.empty()) {
-            const size_t indices = add_view(std::as_bytes(std::span(places)), std::nullopt),
+            const PackedIndices packed = packed_indices(places, changes.size());
+            const size_t indices = add_view(packed.bytes, std::nullopt),
                          moved = add_view(std::as_bytes(std::span(values)), std::nullopt);
             accessor["sparse"] = {{"count", values.size()},
-                                  {"indices", {{"bufferView", indices}, {"componentType", kU32}}},
+                                  {"indices", {{"bufferView", indices}, {"componentType", packed.component}}},
                                   {"values", {{"bufferView", moved}}}};
         }
         root["accessors"].push_back(accessor);
@@ -274,10 +285,11 @@ void add_mesh(GlbContent& glb, const Mesh& mesh, const Json& attributes, const J
     Json primitives = Json::array();
     for (const Submesh& submesh : mesh.submeshes) {
         if (submesh.index_count == 0) continue;
-        const auto bytes =
-            std::as_bytes(std::span(mesh.indices).subspan(submesh.first_index, submesh.index_count));
-        const size_t indices =
-            glb.add_accessor(bytes, submesh.index_count, kU32, "SCALAR", kElementArrayBuffer);
+        const PackedIndices packed =
+            packed_indices(std::span(mesh.indices).subspan(submesh.first_index, submesh.index_count),
+                           mesh.positions_mm.size());
+        const size_t indices = glb.add_accessor(packed.bytes, submesh.index_count, packed.component, "SCALAR",
+                                                kElementArrayBuffer);
         primitives.push_back(
             {{"attributes", attributes}, {"indices", indices}, {"material", submesh.material}});
         if (!targets.empty()) primitives.back()["targets"] = targets;

@@ -35,6 +35,14 @@ std::vector<T> numbers_of(const Glb& glb, size_t accessor_index, size_t each) {
     return numbers;
 }
 
+std::vector<uint32_t> indices_of(const Glb& glb, size_t accessor_index) {
+    constexpr int kU16 = 5123;
+    if (glb.document["accessors"][accessor_index]["componentType"] != kU16)
+        return numbers_of<uint32_t>(glb, accessor_index, 1);
+    const std::vector<uint16_t> narrow = numbers_of<uint16_t>(glb, accessor_index, 1);
+    return {narrow.begin(), narrow.end()};
+}
+
 int numbers_in(const std::string& attribute) {
     if (attribute.starts_with("TEXCOORD_")) return 2;
     if (attribute == "TANGENT") return 4;
@@ -120,7 +128,7 @@ Result<std::vector<Primitive>> import_glb(const fs::path& path) {
             for (const auto& [name, accessor] : one["attributes"].items())
                 if (const int each = numbers_in(name); each > 0)
                     as_unity(made, name, numbers_of<float>(glb, accessor, size_t(each)));
-            made.indices = numbers_of<uint32_t>(glb, one["indices"], 1);
+            made.indices = indices_of(glb, one["indices"]);
             made.material = glb.document["materials"][size_t(one["material"])]["name"];
             primitives.push_back(std::move(made));
         }
