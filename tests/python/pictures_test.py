@@ -85,7 +85,7 @@ class Rendered(TestCase):
             self.assertFalse(numpy.array_equal(pictures[0].display, pictures[1].display))
         self.assert_error("turn is the camera's over all frames; give frames: turn=360, frames=96", dermis.render, "bust",
                           turn=90)
-        self.assert_error(self.program_error("render", "bust", "--frames", 3, "--turn", 1e7, "-o", self.folder / "%d.png"),
+        self.assert_error(self.program_error("render", "bust", "--frames", 3, "--turn", "1e+07", "-o", self.folder / "%d.png"),
                           dermis.render, "bust", frames=3, turn=1e7)
 
     def test_frames_without_a_clip_are_refused(self):
