@@ -41,7 +41,7 @@ Mesh rest_shape(const Mesh& mesh) {
 }
 
 // By corner, so that vertices that a layout has split do not count.
-std::string key_of(std::span<const AtlasPart> parts) {
+std::string atlas_key(std::span<const AtlasPart> parts) {
     Hasher hasher;
     for (const AtlasPart& part : parts) {
         std::vector<Vec3> positions_mm;
@@ -134,7 +134,7 @@ void lay_out_skin_atlas(Scene& scene) {
         parts.push_back({&shapes[i], std::move(triangles)});
         numbers.push_back(i);
     }
-    std::string key = key_of(parts);
+    std::string key = atlas_key(parts);
     if (!scene.skin_atlas || scene.skin_atlas->key != key)
         scene.skin_atlas = std::make_shared<const SkinAtlas>(SkinAtlas{std::move(key), lay_out_atlas(parts)});
     const AtlasLayout& layout = scene.skin_atlas->layout;

@@ -16,7 +16,7 @@
 namespace dermis {
 namespace {
 
-constexpr DrawSettings kPicture = {.width = 48, .height = 48, .deep = true, .shadow_map_size = 256};
+constexpr DrawSettings kMovedPicture = {.width = 48, .height = 48, .deep = true, .shadow_map_size = 256};
 
 class MoveScene : public RenderTest {
   protected:
@@ -33,7 +33,7 @@ class MoveScene : public RenderTest {
     static std::vector<std::byte> drawn(Renderer& renderer, const std::string& technique) {
         const auto parsed = parse_technique(built_in_catalog().techniques, technique);
         EXPECT_TRUE(parsed) << parsed.error().message;
-        return radiance(renderer, *parsed->technique, parsed->values, kPicture).bytes;
+        return radiance(renderer, *parsed->technique, parsed->values, kMovedPicture).bytes;
     }
 
     static void expect_same(const std::vector<SceneObject>& moved, const std::vector<SceneObject>& fresh) {
