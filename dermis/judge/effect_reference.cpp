@@ -36,15 +36,18 @@ Result<std::string> state_hash(const Scene& scene, const ReferenceSettings& sett
     return Hasher().add(std::string_view("effect")).add(hash).hex();
 }
 
-// The picture without scattering, for a half: every cell of every pixel once.
+// The picture without scattering, for a half: every cell of every pixel once, with about kLightPoints points
+// of the lights a pixel.
 Result<ReferencePicture> unscattered(const Scene& scene, const ReferenceSettings& effect, uint32_t half,
                                      const ReferenceProgress& progress, const std::atomic<bool>* stop) {
+    constexpr int kLightPoints = 144;
+    const int cells = effect.grid * effect.grid;
     const ReferenceSettings settings{.integrator = Integrator::lambert,
                                      .width = effect.width,
                                      .height = effect.height,
-                                     .samples = std::max(effect.grid * effect.grid, 2),
+                                     .samples = std::max(cells, 2),
                                      .seed = hash_u32(effect.seed, half),
-                                     .probes = 2,
+                                     .probes = 2 * std::max(kLightPoints / (2 * cells), 1),
                                      .cavities = effect.cavities,
                                      .filter = PixelFilter::grid,
                                      .grid = effect.grid,
