@@ -112,7 +112,7 @@ TEST_F(Moving, bakes_of_the_rest_pose_are_a_key_of_the_scene) {
 TEST_F(Moving, the_shares_of_a_clip_are_those_of_its_poses) {
     const std::string common = "compare " + path("skin_and_morph.glb") +
                                " --unit-mm 10 -t wrap[gain=map] --integrator walk --size 24"
-                               " --samples-per-pixel 4 --samples 64 --timed-frames 1 --clip move"
+                               " --samples-per-pixel 4 --samples 64 --noise 0.1 --timed-frames 1 --clip move"
                                " --camera \"eye_mm=0,0,30 target_mm=0,0,0\" --rest-bakes gain --json -o ";
     const auto json_of = [&](const std::string& words) {
         const ProgramResult compared = run(common + words);
