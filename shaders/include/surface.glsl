@@ -6,16 +6,17 @@
 #include "shaders/include/wrinkles.h"
 
 // With several samples a pixel a triangle may cover a sample and not the pixel's middle. centroid keeps what would be wrong
-// beyond the triangle, as occlusion below 0, inside of it; the others keep the derivatives that pick mip levels.
+// beyond the triangle inside of it. The others keep the derivatives that pick mip levels, or are of every technique, where
+// it takes registers: occlusion is held above 0 instead.
 layout(location = 0) in vec3 p_world_mm_in;
 layout(location = 1) in vec3 n_world_in;
 layout(location = 2) in vec4 t_world_in;
 layout(location = 3) in vec2 uv_in;
-layout(location = 4) centroid in float occlusion_in;
+layout(location = 4) in float occlusion_in;
 layout(location = 5) centroid in vec3 curvature_diagonal_per_mm_in;
 layout(location = 6) centroid in vec3 curvature_mixed_per_mm_in;
 layout(location = 7) centroid in vec3 occlusion_blurred_in;
-layout(location = 8) centroid in vec4 color_linear_in;
+layout(location = 8) in vec4 color_linear_in;
 layout(location = 9) in vec2 atlas_uv_in;
 layout(location = 10) centroid in vec3 walked_gain_in;  // dermis/rays/vertex_gain.h
 layout(location = 13) in float tension_in;     // dermis/mesh/tension.h; 0 of meshes at rest
@@ -135,7 +136,7 @@ Surface load_geometry() {
     s.n_geometry_world = normalize(n_world_in);
     s.uv = uv_in;
     s.atlas_uv = atlas_uv_in;
-    s.occlusion_vertex = occlusion_in;
+    s.occlusion_vertex = max(occlusion_in, 0.0);
     s.occlusion_blurred = occlusion_blurred_in;
     s.curvature_diagonal_per_mm = curvature_diagonal_per_mm_in;
     s.curvature_mixed_per_mm = curvature_mixed_per_mm_in;
@@ -157,7 +158,7 @@ void load_albedo(inout Surface s) {
 
 void load_occlusion(inout Surface s) {
     // The material's map and the mesh's own estimate are of the same shape: the darker one counts, not both.
-    s.occlusion = min(occlusion_in, has_occlusion_map != 0 ? texture(occlusion_map, uv_in).r : 1.0);
+    s.occlusion = min(max(occlusion_in, 0.0), has_occlusion_map != 0 ? texture(occlusion_map, uv_in).r : 1.0);
 }
 
 // Share of the diffuse light that scatters; the rest leaves where it entered.

@@ -10,7 +10,20 @@ using namespace dermis;
 
 namespace {
 
-class OwnHead : public RenderTest {};
+class OwnHead : public RenderTest {
+  protected:
+    // The light of every technique on ICT's face.
+    void for_each_light(const DrawSettings& settings, const auto& check) {
+        const std::filesystem::path file = test::asset("ict_face/ict_moving.glb");
+        if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is needed";
+        const Scene scene = load(file.string());
+        Renderer renderer = make_renderer(scene);
+        for (const Technique& technique : built_in_catalog().techniques) {
+            SCOPED_TRACE(technique.id);
+            check(radiance(renderer, technique, ParameterValues(technique.parameters), settings));
+        }
+    }
+};
 
 // Skin's base colour has more red than green; eyes and teeth have as much blue as green.
 std::string greener_than_red(const Image& light) {
@@ -29,30 +42,17 @@ std::string greener_than_red(const Image& light) {
 
 // Red scatters farthest: in folds and at edges of shadows a technique can take more of it away than walks do.
 TEST_F(OwnHead, no_skin_is_greener_than_red) {
-    const std::filesystem::path file = test::asset("ict_face/ict_moving.glb");
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is needed";
-    const Scene scene = load(file.string());
-    Renderer renderer = make_renderer(scene);
-    for (const Technique& technique : built_in_catalog().techniques) {
-        const Image light = radiance(renderer, technique, ParameterValues(technique.parameters),
-                                     {.width = 768, .height = 768});
-        EXPECT_EQ(greener_than_red(light), "") << technique.id;
-    }
+    for_each_light({.width = 768, .height = 768},
+                   [](const Image& light) { EXPECT_EQ(greener_than_red(light), ""); });
 }
 
 // At samples of an edge what vertices carry is not continued beyond the triangle.
 TEST_F(OwnHead, no_light_is_below_zero_with_four_samples_a_pixel) {
-    const std::filesystem::path file = test::asset("ict_face/ict_moving.glb");
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is needed";
-    const Scene scene = load(file.string());
-    Renderer renderer = make_renderer(scene);
-    for (const Technique& technique : built_in_catalog().techniques) {
-        const Image light = radiance(renderer, technique, ParameterValues(technique.parameters),
-                                     {.width = 384, .height = 384, .samples = 4});
+    for_each_light({.width = 384, .height = 384, .samples = 4}, [](const Image& light) {
         float least = 0;
         for (int y = 0; y < light.height; ++y)
             for (int x = 0; x < light.width; ++x)
                 for (int c = 0; c < 3; ++c) least = std::min(least, light.at(x, y, c));
-        EXPECT_EQ(least, 0) << technique.id;
-    }
+        EXPECT_EQ(least, 0);
+    });
 }
