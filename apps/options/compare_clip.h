@@ -37,10 +37,10 @@ class ClipFrames {
   private:
     ClipFrames() = default;
 
-    std::string name_;  // of scene and clip
+    std::string name_;  // the names of scene and clip
     std::vector<double> times_s_;
     std::unique_ptr<SubjectCase> shown_;
-    std::unique_ptr<Renderer> renderer_;  // of the shown scene
+    std::unique_ptr<Renderer> renderer_;  // draws shown_->scene
 };
 
 /// The frames of a clip that are compared so far.

@@ -360,7 +360,7 @@ Result<void> draw_techniques(gpu::Device& device, Renderer& renderer, const Cata
     return {};
 }
 
-// Of the first rows; those after them have no known cost.
+// Times the techniques, which are the first rows. The rows of other renderers' pictures have no known cost.
 Result<void> time_techniques(Renderer& renderer, const std::vector<Contestant>& contestants,
                              ComparisonWork& work) {
     const ComparisonSettings& settings = work.settings;

@@ -36,8 +36,8 @@ Result<std::string> state_hash(const Scene& scene, const ReferenceSettings& sett
     return Hasher().add(std::string_view("effect")).add(hash).hex();
 }
 
-// The picture without scattering, for a half: every cell of every pixel once, with about kLightPoints points
-// of the lights a pixel.
+// The picture without scattering, for a half. It samples every cell of a pixel once; all cells together take
+// about kLightPoints points on the lights.
 Result<ReferencePicture> unscattered(const Scene& scene, const ReferenceSettings& effect, uint32_t half,
                                      const ReferenceProgress& progress, const std::atomic<bool>* stop) {
     constexpr int kLightPoints = 144;
@@ -57,7 +57,7 @@ Result<ReferencePicture> unscattered(const Scene& scene, const ReferenceSettings
 }
 
 Error stopped_early() {
-    return Error{"stopped before the first samples were complete: there is no picture yet"};
+    return Error{"stopped before every pixel had a sample: there is no picture yet"};
 }
 
 Image whole_skin(const Image& skin) {

@@ -24,8 +24,8 @@ struct ArtisticKernel {
 
 struct KernelWidth {
     double width = 0;  ///< factor on all lengths of the kernel
-    /// Of what the skin does to light that varies slowly, the part that the kernel does: 1 - rms difference
-    /// over rms effect, of light times the skin's albedo, over all channels.
+    /// The captured share of the skin's blur of slowly varying light: 1 - rms error of the kernel's change /
+    /// rms of the skin's change, over all channels, of light times the skin's albedo.
     double share = 0;
 };
 

@@ -342,7 +342,7 @@ class ArrayMaker {
     } uvs_;
     Words vertices_, rings_, directions_;
     std::vector<uint32_t> influences_;  // by place, as shaders have them
-    uint32_t entries_ = 0;              // of the rings
+    uint32_t entries_ = 0;              // number of entries in all rings
     DeformArrays made_;
 };
 

@@ -18,7 +18,7 @@ struct Influence {
 // A morph target whose weight is not 0, in a block that it moves. The first entries belong to the blocks and one more: `first` of
 // the next one ends a block's list, `weight` is 0 where no normal turns with the surface.
 struct ActiveTarget {
-    uint first;                   // of the block's changes
+    uint first;                   // index of the block's first change
     float weight, weight_before;  // before: 0 unless it has normals, which then do not turn
 };
 

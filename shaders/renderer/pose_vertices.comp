@@ -9,12 +9,12 @@ layout(constant_id = 0) const int has_normal_changes = 0;
 
 struct MovingVertex {
     uint place;
-    uint first_entry;  // of its rings; that of the next vertex ends them
+    uint first_entry;  // index where its rings begin; they end where those of the next vertex begin
     uint influences;   // as those of a place
     uint directions;   // kAlongAtlas, or where those of its entries begin
     uint beside;       // a place that gives the frame a direction where the UVs have no area
-    float rest_area;   // of the triangles around, at rest, twice, mm^2
-    vec3 normal;       // of the file, in the space of its primitive; 0: none
+    float rest_area;   // twice the area of the triangles around the vertex at rest, in mm^2
+    vec3 normal;       // the file's, in the space of its primitive; 0 where it has none
     vec4 tangent;      // in the frame at rest, w as the mesh has it
     vec3 curvature_diagonal_per_mm, curvature_mixed_per_mm;  // in the frame at rest
 };
