@@ -4,11 +4,14 @@ gltf_pose.py write FOLDER                writes small files, one for each kind o
 gltf_pose.py evaluate FILE CLIP TIME     prints the positions of all vertices in millimetres, one a line
 """
 
+import base64
 import json
 import math
+import pathlib
 import random
 import struct
 import sys
+import urllib.parse
 
 FORMATS = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}
 LARGEST = {5120: 127, 5121: 255, 5122: 32767, 5123: 65535}
@@ -19,19 +22,30 @@ WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
 
 class File:
+    """A .glb, or a .gltf with its buffers in it or beside it."""
+
     def __init__(self, path):
-        data = open(path, "rb").read()
-        length = struct.unpack_from("<I", data, 12)[0]
-        self.json = json.loads(data[20 : 20 + length])
-        self.binary = data[28 + length :]
+        path = pathlib.Path(path)
+        data, chunk = path.read_bytes(), b""
+        if data[:4] == b"glTF":
+            length = struct.unpack_from("<I", data, 12)[0]
+            data, chunk = data[20 : 20 + length], data[28 + length :]
+        self.json = json.loads(data.decode("utf-8-sig"))
+        self.buffers = [self.buffer(path.parent, b["uri"]) if "uri" in b else chunk for b in self.json["buffers"]]
+
+    @staticmethod
+    def buffer(folder, uri):
+        if uri.startswith("data:"):
+            return base64.b64decode(uri.partition(",")[2])
+        return (folder / urllib.parse.unquote(uri)).read_bytes()
 
     def elements(self, view, offset, component, width, count):
         """Section 3.6.2."""
         view = self.json["bufferViews"][view]
         code, size = FORMATS[component], struct.calcsize(FORMATS[component])
         stride = view.get("byteStride", size * width)
-        start = view.get("byteOffset", 0) + offset
-        return [list(struct.unpack_from("<%d%s" % (width, code), self.binary, start + i * stride)) for i in range(count)]
+        start, data = view.get("byteOffset", 0) + offset, self.buffers[view["buffer"]]
+        return [list(struct.unpack_from("<%d%s" % (width, code), data, start + i * stride)) for i in range(count)]
 
     def accessor(self, index):
         a = self.json["accessors"][index]
@@ -185,12 +199,15 @@ def skinned(file, primitive, joints, positions):
     return moved
 
 
-def evaluate(path, clip_name, time):
-    file = File(path)
+def joints_of(file, skin, world):
+    if "inverseBindMatrices" not in skin:
+        return [world[j] for j in skin["joints"]]
+    return [product(world[j], from_columns(b)) for j, b in zip(skin["joints"], file.accessor(skin["inverseBindMatrices"]))]
+
+
+def posed(file):
+    """Each primitive of the scene that is drawn, with its positions in metres."""
     nodes = file.json["nodes"]
-    clips = [a for a in file.json.get("animations", []) if a["name"] == clip_name]
-    if clips:
-        play(file, clips[0], time)
     world = globals_of(nodes)
     scene = file.json["scenes"][file.json.get("scene", 0)]
     for index in [i for root in scene["nodes"] for i in drawn(file.json, root)]:
@@ -200,17 +217,24 @@ def evaluate(path, clip_name, time):
         mesh = file.json["meshes"][node["mesh"]]
         joints = None
         if "skin" in node:
-            skin = file.json["skins"][node["skin"]]
-            binds = file.accessor(skin["inverseBindMatrices"])
-            joints = [product(world[j], from_columns(b)) for j, b in zip(skin["joints"], binds)]
+            joints = joints_of(file, file.json["skins"][node["skin"]], world)
         for primitive in mesh["primitives"]:
             positions = morphed(file, primitive, node.get("weights", mesh.get("weights", [])))
             if joints:
                 positions = skinned(file, primitive, joints, positions)
             else:
                 positions = [transform(world[index], p) for p in positions]
-            for p in positions:
-                print("%.9g %.9g %.9g" % tuple(1000 * v for v in p))
+            yield primitive, positions
+
+
+def evaluate(path, clip_name, time):
+    file = File(path)
+    clips = [a for a in file.json.get("animations", []) if a["name"] == clip_name]
+    if clips:
+        play(file, clips[0], time)
+    for _, positions in posed(file):
+        for p in positions:
+            print("%.9g %.9g %.9g" % tuple(1000 * v for v in p))
 
 
 # Writing -----------------------------------------------------------------------------------------------------
