@@ -3,6 +3,8 @@
 #include <cstring>
 
 #include "dermis/base/parallel.h"
+#include "dermis/mesh/curvature.h"
+#include "dermis/mesh/curvature_stencils.h"
 #include "dermis/mesh/surface_frame.h"
 #include "dermis/rays/diffused_normals_texel.h"
 #include "dermis/rays/uv_raster.h"
@@ -61,14 +63,32 @@ std::vector<FrameSource> frame_sources(std::span<const SceneObject> objects) {
 
 }  // namespace
 
-std::vector<CurvatureTensor> carried_curvatures(const Mesh& rest, const Mesh& posed) {
+namespace {
+
+// One tensor a vertex, by its frames at rest and in the pose.
+std::vector<CurvatureTensor> by_frames(const Mesh& rest, const Mesh& posed, const auto& tensor_of) {
     const FrameSource from(rest), to(posed);
-    std::vector<CurvatureTensor> carried;
-    carried.reserve(rest.curvatures_per_mm.size());
-    for (size_t i = 0; i < rest.curvatures_per_mm.size(); ++i)
-        carried.push_back(moved({from.normals[i], from.directions[i]}, {to.normals[i], to.directions[i]},
-                                rest.curvatures_per_mm[i]));
-    return carried;
+    std::vector<CurvatureTensor> tensors;
+    tensors.reserve(rest.curvatures_per_mm.size());
+    for (uint32_t v = 0; v < rest.curvatures_per_mm.size(); ++v)
+        tensors.push_back(tensor_of(v, SurfaceFrame(from.normals[v], from.directions[v]),
+                                    SurfaceFrame(to.normals[v], to.directions[v])));
+    return tensors;
+}
+
+}  // namespace
+
+std::vector<CurvatureTensor> carried_curvatures(const Mesh& rest, const Mesh& posed) {
+    return by_frames(rest, posed, [&](uint32_t v, const SurfaceFrame& before, const SurfaceFrame& after) {
+        return moved(before, after, rest.curvatures_per_mm[v]);
+    });
+}
+
+std::vector<CurvatureTensor> followed_curvatures(const Mesh& rest, const Mesh& posed) {
+    const CurvatureAtRest curvature(rest, kCurvatureSmoothingMm);
+    return by_frames(rest, posed, [&](uint32_t v, const SurfaceFrame& before, const SurfaceFrame& after) {
+        return curvature.posed(v, before, after, posed.positions_mm);
+    });
 }
 
 DiffusedNormals carried_normals(std::span<const SceneObject> rest, std::span<const SceneObject> posed,

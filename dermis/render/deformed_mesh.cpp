@@ -244,8 +244,10 @@ class ArrayMaker {
             }
             add_vertex(v, beside[v], fan);
         }
-        vertices_.add(0u, entries_, 0u, 0u, 0u, 0.0f, Vec3{}, Vec4{}, Vec3{}, Vec3{});
+        vertices_.add(0u, entries_, stencil_entries(), 0u, 0u, 0u, 0.0f, Vec3{}, Vec4{}, Vec3{}, Vec3{},
+                      Vec3{}, Vec3{});
         put("vertices", vertices_), put("rings", rings_), put("directions", directions_);
+        put("stencils", stencils_);
     }
 
     void add_vertex(uint32_t v, uint32_t beside, std::span<FanCorner> fan) {
@@ -258,12 +260,25 @@ class ArrayMaker {
         note_movers(v, place, fan);
         const SurfaceFrame frame(rest_.normals[v], rest_.directions[v]), axes({0, 0, 1}, {1, 0, 0});
         const Vec4 t = rest_.tangents.empty() ? Vec4{1, 0, 0, 1} : rest_.tangents[v];
-        const CurvatureTensor s = rest_.curvatures_per_mm.empty()
-                                      ? CurvatureTensor{}
-                                      : moved(frame, axes, rest_.curvatures_per_mm[v]);
-        vertices_.add(place, first, influences_[place], directions, beside, rest_area,
+        const auto in_axes = [&](const std::vector<CurvatureTensor>& tensors) {
+            return tensors.empty() ? CurvatureTensor{} : moved(frame, axes, tensors[v]);
+        };
+        const CurvatureTensor s = in_axes(rest_.curvature.tensors),
+                              stencil = in_axes(rest_.curvature.stencil_tensors);
+        vertices_.add(place, first, stencil_entries(), influences_[place], directions, beside, rest_area,
                       motion_.normals[file_vertex], moved(frame, axes, Vec3{t.x, t.y, t.z}), t.w, s.diagonal,
-                      s.mixed);
+                      s.mixed, stencil.diagonal, stencil.mixed);
+        add_stencil(v);
+    }
+
+    [[nodiscard]] uint32_t stencil_entries() const { return uint32_t(stencils_.all.size() / 6); }
+
+    void add_stencil(uint32_t v) {
+        if (rest_.curvature.tensors.empty()) return;
+        for (const CurvatureStencils::Entry& entry : rest_.curvature.stencils.around(v)) {
+            const auto& w = entry.weights;
+            stencils_.add(place_of(entry.vertex), w[0], w[1], w[2], w[3], w[4]);
+        }
     }
 
     void add_ring(std::span<const FanCorner> fan, bool with_directions) {
@@ -340,7 +355,7 @@ class ArrayMaker {
     struct {
         std::vector<uint32_t> direction, atlas;
     } uvs_;
-    Words vertices_, rings_, directions_;
+    Words vertices_, rings_, directions_, stencils_;
     std::vector<uint32_t> influences_;  // by place, as shaders have them
     uint32_t entries_ = 0;              // number of entries in all rings
     DeformArrays made_;

@@ -44,6 +44,7 @@ std::vector<Pass> passes_of(const std::string& mesh, const DeformArrays& made) {
                                            {"Vertices", "vertices"},
                                            {"Rings", "rings"},
                                            {"Directions", "directions"},
+                                           {"Stencils", "stencils"},
                                            {"Influences", "influences"},
                                            {"Matrices", "matrices"},
                                            {"Positions", "positions"},

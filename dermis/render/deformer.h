@@ -19,7 +19,7 @@ namespace dermis::inline render {
 class Deformer {
   public:
     /// What its largest pass binds. Vulkan requires 4 of every device.
-    static constexpr int kStorageBuffers = 17;
+    static constexpr int kStorageBuffers = 18;
 
     /// `geometries`: one an object, with all streams of a mesh in a pose. The poser, the device and they must
     /// outlive it. Nothing where only the CPU poses: subjects, bakes carried from the rest pose, colours that
@@ -33,9 +33,9 @@ class Deformer {
     /// weights and matrices go to the device.
     ///
     /// Largest differences from the CPU, which blends matrices in double, on clips of ICT's face: positions
-    /// 1e-4 mm, normals and tangents 1e-3, curvature 5e-4 / mm, tension 2e-4, dP/du and dP/dv 0.2 mm.
-    /// Vertices share normal and tension if they move together in every pose, not if they happen to meet in
-    /// one. Where a sum of normals cancels, a vertex has that of its last triangle.
+    /// 1e-4 mm, normals and tangents 1e-3, curvature 5e-3 / mm (mean 2.5e-5), tension 2e-4, dP/du and dP/dv
+    /// 0.2 mm. Vertices share normal and tension if they move together in every pose, not if they happen to
+    /// meet in one. Where a sum of normals cancels, a vertex has that of its last triangle.
     [[nodiscard]] Result<std::vector<TargetWeights>> pose(const Pose& pose);
 
     /// Times of poses that are done, each once, oldest first.

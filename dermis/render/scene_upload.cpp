@@ -54,7 +54,9 @@ struct MovingStreams {
         normals = filled(mesh.normals, count, Vec3{0, 0, 1});
         tangents = filled(mesh.tangents, count, Vec4{1, 0, 0, 1});
         const std::vector<CurvatureTensor> curvatures =
-            rest && rest_bakes.curvature ? carried_curvatures(*rest, mesh) : mesh.curvatures_per_mm;
+            rest && rest_bakes.curvature  ? carried_curvatures(*rest, mesh)
+            : rest && rest_bakes.stencils ? followed_curvatures(*rest, mesh)
+                                          : mesh.curvatures_per_mm;
         for (const CurvatureTensor& tensor : filled(curvatures, count, CurvatureTensor{})) {
             diagonals.push_back(tensor.diagonal);
             mixed.push_back(tensor.mixed);

@@ -4,6 +4,7 @@
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
+#include "dermis/mesh/curvature.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/mesh/surface_frame.h"
 #include "dermis/scene/place_mesh.h"
@@ -15,7 +16,7 @@ SurfaceAtRest at_rest(const Mesh& mesh) {
     return {.normals = mesh.normals,
             .directions = surface_directions(mesh),
             .tangents = mesh.tangents,
-            .curvatures_per_mm = mesh.curvatures_per_mm};
+            .curvature = CurvatureAtRest(mesh, kCurvatureSmoothingMm)};
 }
 
 void move_vertices(Mesh& mesh, const PosedVertices& posed, const SurfaceAtRest& rest) {
@@ -25,15 +26,15 @@ void move_vertices(Mesh& mesh, const PosedVertices& posed, const SurfaceAtRest& 
         mesh.normals[v] = posed.normals[from[v]];
     }
     const std::vector<Vec3> directions = surface_directions(mesh);
-    for (size_t v = 0; v < from.size(); ++v) {
+    for (uint32_t v = 0; v < from.size(); ++v) {
         const SurfaceFrame before(rest.normals[v], rest.directions[v]), after(mesh.normals[v], directions[v]);
         if (!rest.tangents.empty()) {
             const Vec4 t = rest.tangents[v];
             const Vec3 turned = moved(before, after, Vec3{t.x, t.y, t.z});
             mesh.tangents[v] = {turned.x, turned.y, turned.z, t.w};
         }
-        if (!rest.curvatures_per_mm.empty())
-            mesh.curvatures_per_mm[v] = moved(before, after, rest.curvatures_per_mm[v]);
+        if (!rest.curvature.tensors.empty())
+            mesh.curvatures_per_mm[v] = rest.curvature.posed(v, before, after, mesh.positions_mm);
     }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dermis/base/result.h"
+#include "dermis/mesh/curvature_stencils.h"
 #include "dermis/mesh/mesh_poser.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/mesh/tension.h"
@@ -43,7 +44,7 @@ void pose_subject(SceneObject& object, const Pose& pose);
 struct SurfaceAtRest {
     std::vector<Vec3> normals, directions;  ///< directions: dP/du, or along an edge
     std::vector<Vec4> tangents;
-    std::vector<CurvatureTensor> curvatures_per_mm;
+    CurvatureAtRest curvature;
 };
 
 class ScenePoser {
@@ -57,10 +58,10 @@ class ScenePoser {
     [[nodiscard]] static bool can_pose(const SceneObject& object);
 
     /// Moves the vertices of `scene`, whose meshes must be those of create(). Positions and normals are those
-    /// that loading in the pose gives. Tangents and curvature tensors turn with the surface (dP/du and
-    /// normal) from the shape that create() saw; tensions are against the rest pose, and colours follow them;
-    /// occlusion and bounds stay. Errors: a file that does not fit any more. Not for several threads at once.
-    /// Cost: docs/figures.md#moving-heads.
+    /// that loading in the pose gives. Tangents turn with the surface (dP/du and normal) from the shape that
+    /// create() saw, curvature follows as CurvatureAtRest says; tensions are against the
+    /// rest pose, and colours follow them; occlusion and bounds stay. Errors: a file that does not fit any
+    /// more. Not for several threads at once. Cost: docs/figures.md#moving-heads.
     [[nodiscard]] Result<void> pose(const Pose& pose, Scene& scene) const;
 
     struct Posed {

@@ -14,6 +14,7 @@ struct RestBake {
 };
 constexpr RestBake kRestBakes[] = {{"normals", &RestBakes::normals},
                                    {"curvature", &RestBakes::curvature},
+                                   {"stencils", &RestBakes::stencils},
                                    {"gain", &RestBakes::gain},
                                    {"occlusion", &RestBakes::occlusion}};
 constexpr RestBakes kAllRestBakes = {.normals = true, .curvature = true, .gain = true, .occlusion = true};
@@ -32,6 +33,8 @@ Result<RestBakes> parse_rest_bakes(std::string_view text) {
             return Error{unknown_name("rest bake", std::string(word), known) + "; '+' joins them"};
         bakes.*found->member = true;
     }
+    if (bakes.curvature && bakes.stencils)
+        return Error{"rest bakes: stencils change the curvature that curvature keeps; name one of them"};
     return bakes;
 }
 

@@ -1,22 +1,27 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The streams of a mesh from its places, by one walk over the triangles around each vertex: the file's normals
-// turned as the surface turns, tangents and curvature turned with the frame of normal and dP/du, dP/du and dP/dv
-// of the atlas, tension.
+// turned as the surface turns, tangents and curvature turned with the frame of normal and dP/du, curvature
+// changed as its stencil's, dP/du and dP/dv of the atlas, tension.
 #include "shaders/renderer/pose.glsl"
 
 layout(constant_id = 0) const int has_normal_changes = 0;
 
+// As CurvatureTensor.
+struct Tensor {
+    vec3 diagonal, mixed;
+};
 struct MovingVertex {
     uint place;
-    uint first_entry;  // index where its rings begin; they end where those of the next vertex begin
+    // Indices where its rings and its stencil begin; they end where those of the next vertex begin.
+    uint first_entry, first_stencil;
     uint influences;   // as those of a place
     uint directions;   // kAlongAtlas, or where those of its entries begin
     uint beside;       // a place that gives the frame a direction where the UVs have no area
     float rest_area;   // twice the area of the triangles around the vertex at rest, in mm^2
     vec3 normal;       // the file's, in the space of its primitive; 0 where it has none
     vec4 tangent;      // in the frame at rest, w as the mesh has it
-    vec3 curvature_diagonal_per_mm, curvature_mixed_per_mm;  // in the frame at rest
+    Tensor curvature_per_mm, stencil_per_mm;  // in the frame at rest
 };
 // A place around a vertex, in the order of the triangles. With the entry before it, it makes a triangle, whose dP/du of the atlas is
 // edge_1 * du.x + edge_2 * du.y: edges to the place before and to its own.
@@ -29,6 +34,12 @@ layout(scalar) readonly buffer NormalChanges { vec3 normal_changes[]; };
 layout(scalar) readonly buffer Vertices { MovingVertex vertices[]; };
 layout(scalar) readonly buffer Rings { RingEntry entries[]; };
 layout(scalar) readonly buffer Directions { vec2 directions[]; };  // du of the file's UVs
+// CurvatureStencils::Entry. With weights of 16 bits tensors differ by .02 / mm at most from those of the CPU.
+struct StencilEntry {
+    uint place;
+    float x, y, xx, xy, yy;
+};
+layout(scalar) readonly buffer Stencils { StencilEntry stencils[]; };
 layout(scalar) readonly buffer Positions { vec3 positions_mm[]; };
 layout(scalar) readonly buffer Unmorphed { vec3 unmorphed_mm[]; };
 layout(scalar) writeonly buffer PositionStream { vec3 position_stream[]; };
@@ -124,6 +135,28 @@ float tension_of(float area, float at_rest) {
     return area > 0.0 ? clamp(log(area / at_rest), -kMostTension, kMostTension) : -kMostTension;
 }
 
+Tensor in_frame(mat3 frame, Tensor s) {
+    vec3 d = s.diagonal, m = s.mixed;
+    mat3 all = frame * mat3(d.x, m.z, m.y, m.z, d.y, m.x, m.y, m.x, d.z) * transpose(frame);
+    return Tensor(vec3(all[0][0], all[1][1], all[2][2]), vec3(all[1][2], all[0][2], all[0][1]));
+}
+
+Tensor stencil_tensor(vec3 p, uint first, uint end) {
+    SurfaceDerivatives sum = SurfaceDerivatives(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    for (uint k = first; k < end; ++k) {
+        vec3 edge = positions_mm[stencils[k].place] - p;
+        sum.x += stencils[k].x * edge;
+        sum.y += stencils[k].y * edge;
+        sum.xx += stencils[k].xx * edge;
+        sum.xy += stencils[k].xy * edge;
+        sum.yy += stencils[k].yy * edge;
+    }
+    CurvatureForm form = curvature_form(sum);
+    vec3 x = curvature_along(form, vec3(1.0, 0.0, 0.0)), y = curvature_along(form, vec3(0.0, 1.0, 0.0)),
+         z = curvature_along(form, vec3(0.0, 0.0, 1.0));
+    return Tensor(vec3(x.x, y.y, z.z), vec3(y.z, x.z, x.y));
+}
+
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= position_stream.length()) return;
@@ -139,13 +172,15 @@ void main() {
     if (direction == vec3(0.0)) direction = positions_mm[vertex.beside] - p;
     vec3 t = unit(direction - n * dot(n, direction));
     mat3 frame = mat3(t, cross(n, t), n);
-    vec3 d = vertex.curvature_diagonal_per_mm, m = vertex.curvature_mixed_per_mm;
-    mat3 tensor = frame * mat3(d.x, m.z, m.y, m.z, d.y, m.x, m.y, m.x, d.z) * transpose(frame);
+    Tensor curvature = in_frame(frame, vertex.curvature_per_mm), at_rest = in_frame(frame, vertex.stencil_per_mm),
+           now = stencil_tensor(p, vertex.first_stencil, vertices[i + 1].first_stencil);
+    vec3 diagonal = now.diagonal - at_rest.diagonal, mixed = now.mixed - at_rest.mixed;
+    float limit = change_limit(diagonal, mixed);
     position_stream[i] = p;
     normal_stream[i] = n;
     tangent_stream[i] = vec4(frame * vertex.tangent.xyz, vertex.tangent.w);
-    diagonal_stream[i] = vec3(tensor[0][0], tensor[1][1], tensor[2][2]);
-    mixed_stream[i] = vec3(tensor[1][2], tensor[0][2], tensor[0][1]);
+    diagonal_stream[i] = curvature.diagonal + limit * diagonal;
+    mixed_stream[i] = curvature.mixed + limit * mixed;
     float per_area = around.uv_area > 0.0 ? 1.0 / around.uv_area : 0.0;
     du_stream[i] = around.du * per_area;
     dv_stream[i] = around.dv * per_area;

@@ -48,7 +48,7 @@ class RestBakesPicture : public RenderTest {
 }  // namespace
 
 TEST(RestBakes, are_words_joined_by_plus) {
-    for (const char* text : {"none", "normals", "curvature+gain", "normals+curvature+gain", "all"}) {
+    for (const char* text : {"none", "normals", "curvature+gain", "normals+stencils+gain", "all"}) {
         const Result<RestBakes> bakes = parse_rest_bakes(text);
         ASSERT_TRUE(bakes) << bakes.error().message;
         EXPECT_EQ(rest_bakes_text(*bakes), text);
@@ -56,6 +56,7 @@ TEST(RestBakes, are_words_joined_by_plus) {
     EXPECT_EQ(rest_bakes_text(*parse_rest_bakes("normals+curvature+gain+occlusion")), "all");
     EXPECT_THAT(parse_rest_bakes("normal").error().message, HasSubstr("did you mean 'normals'?"));
     EXPECT_FALSE(parse_rest_bakes(""));
+    EXPECT_THAT(parse_rest_bakes("curvature+stencils").error().message, HasSubstr("name one of them"));
 }
 
 TEST(RestBakes, turn_with_a_surface_that_only_turns) {
