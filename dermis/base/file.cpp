@@ -24,21 +24,25 @@ std::array<Slot, 32> g_slots;
 
 // While a program ends, its other threads still run, and one could make a temporary file after
 // end_temporary_files() has removed them. Code that writes a temporary file holds a Writing. Once the end has
-// begun, its constructor never returns; the removal first waits for those who hold one. It waits 50 ms at
-// most, as a signal may come to a thread that holds one. By then a file that is being written exists, and is
-// removed.
+// begun, its constructor never returns; the removal first waits for the other threads that hold one, 300 ms at
+// most: by then a file that is being written exists, and is removed.
 std::atomic<bool> g_ending = false;
 std::atomic<int> g_writing = 0;
+thread_local int t_writing = 0;  // a signal may come to a thread that holds one
 
 class Writing {
   public:
     Writing() {
+        ++t_writing;
         ++g_writing;
         if (!g_ending) return;
         --g_writing;
         for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
     }
-    ~Writing() { --g_writing; }
+    ~Writing() {
+        --g_writing;
+        --t_writing;
+    }
     Writing(const Writing&) = delete;
     Writing& operator=(const Writing&) = delete;
 };
@@ -208,7 +212,7 @@ Result<void> try_output(const fs::path& path) {
 
 void end_temporary_files() noexcept {
     g_ending = true;
-    for (int waited_ms = 0; g_writing > 0 && waited_ms < 50; ++waited_ms)
+    for (int waited_ms = 0; g_writing > t_writing && waited_ms < 300; ++waited_ms)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     for (const Slot& slot : g_slots)
         if (slot.state == Slot::filled) system::remove_file(slot.path);
