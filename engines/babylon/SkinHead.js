@@ -15,7 +15,7 @@ import { Vector3 } from "@babylonjs/core/Maths/math.vector.js";
 import { Mesh } from "@babylonjs/core/Meshes/mesh.js";
 import { VertexData } from "@babylonjs/core/Meshes/mesh.vertexData.js";
 import { metres, readGlb, readSettings, shadowFrustum } from "./SkinHeadFiles.js";
-import { loadTexture, materialOf } from "./SkinHeadMaterial.js";
+import { loadDirections, loadTexture, materialOf } from "./SkinHeadMaterial.js";
 import { loadSkinTable } from "./SkinMaterialPlugin.js";
 import { frameAttribute, headAttributes } from "./SkinSurfaceCode.js";
 
@@ -124,12 +124,15 @@ async function addEnvironment(scene, { file, intensity, yaw_rad }, folder) {
 
 // The maps that all skin of the head shares.
 async function sharedMaps(scene, { baked_normals, thickness }, folder) {
-  const shared = { table: await loadSkinTable(scene) }, load = file => loadTexture(scene, folder + file, { isColor: false });
+  const shared = { table: await loadSkinTable(scene) };
   if (baked_normals) {
-    const [red, green, spread] = await Promise.all(baked_normals.map(load));
+    const [red, green, spread] = await Promise.all(baked_normals.map(file => loadDirections(scene, folder + file)));
     shared.bakedNormals = { red, green, spread };
   }
-  if (thickness) Object.assign(shared, { thicknessTexture: await load(thickness.file), thicknessMaxMm: thickness.max_mm });
+  if (thickness) {
+    shared.thicknessTexture = await loadTexture(scene, folder + thickness.file, { isColor: false });
+    shared.thicknessMaxMm = thickness.max_mm;
+  }
   return shared;
 }
 

@@ -4,6 +4,8 @@ import { Material } from "@babylonjs/core/Materials/material.js";
 import { PBRMaterial } from "@babylonjs/core/Materials/PBR/pbrMaterial.js";
 import { Texture } from "@babylonjs/core/Materials/Textures/texture.js";
 import { Color3 } from "@babylonjs/core/Maths/math.color.js";
+import { readBytes } from "./SkinHeadFiles.js";
+import { mipLevels, pictureOf } from "./SkinMipLevels.js";
 import { SkinMaterialPlugin } from "./SkinMaterialPlugin.js";
 
 // A promise of a texture; of a colour it holds sRGB, else lengths, directions and factors.
@@ -22,12 +24,22 @@ export const loadTexture = (scene, url, { isColor, mimeType }) => new Promise((d
   texture.anisotropicFilteringLevel = 1;  // as the renderer: the baked normals are of such a normal map
 });
 
+// A promise of a texture of directions.
+export async function loadDirections(scene, url, mimeType = "image/png") {
+  const levels = mipLevels(await pictureOf(new Blob([await readBytes(url)], { type: mimeType })));
+  const texture = await loadTexture(scene, url, { isColor: false, mimeType }), engine = scene.getEngine();
+  engine.flushFramebuffer();  // WebGPU would draw its own levels later, over these
+  levels.forEach(({ data, width, height }, i) => engine.updateTextureData(texture._texture, data, 0, 0, width, height, 0, i));
+  return texture;
+}
+
 // Of a texture of glTF; null where there is none.
-async function embedded(scene, glb, texture, isColor = false) {
+async function embedded(scene, glb, texture, kind = "data") {
   if (!texture) return null;
   const picture = glb.pictureOf(texture), url = URL.createObjectURL(picture);
   try {
-    return await loadTexture(scene, url, { isColor, mimeType: picture.type });
+    if (kind === "directions") return await loadDirections(scene, url, picture.type);
+    return await loadTexture(scene, url, { isColor: kind === "color", mimeType: picture.type });
   } finally {
     URL.revokeObjectURL(url);
   }
@@ -48,12 +60,12 @@ function setSurface(material, { alphaMode, alphaCutoff = 0.5, doubleSided, pbrMe
 
 async function bindMaps(scene, glb, material, { pbrMetallicRoughness, normalTexture, occlusionTexture }) {
   const { baseColorTexture, metallicRoughnessTexture } = pbrMetallicRoughness;
-  material.albedoTexture = await embedded(scene, glb, baseColorTexture, true);
+  material.albedoTexture = await embedded(scene, glb, baseColorTexture, "color");
   if (material.albedoTexture && material.transparencyMode !== null) {
     material.albedoTexture.hasAlpha = true;
     material.useAlphaFromAlbedoTexture = true;
   }
-  material.bumpTexture = await embedded(scene, glb, normalTexture);
+  material.bumpTexture = await embedded(scene, glb, normalTexture, "directions");
   if (material.bumpTexture) material.bumpTexture.level = normalTexture.scale ?? 1;
   material.invertNormalMapY = true;  // the handedness of glTF in a right-handed scene
   material.metallicTexture = await embedded(scene, glb, metallicRoughnessTexture);
@@ -70,7 +82,7 @@ async function skinOf(scene, material, { source, glb, folder, settings, shared }
   Object.assign(skin, shared, { f0: settings.f0, twoLobes: false });
   skin.specularTexture = await embedded(scene, glb, source.extensions?.KHR_materials_specular?.specularTexture);
   if (!settings.object_normal_map) return skin;
-  material.bumpTexture = await loadTexture(scene, folder + settings.object_normal_map, { isColor: false });
+  material.bumpTexture = await loadDirections(scene, folder + settings.object_normal_map);
   material.useObjectSpaceNormalMap = true;
   return skin;
 }
@@ -82,7 +94,7 @@ async function otherOf(scene, glb, material, { extensions = {}, emissiveFactor, 
   material.metallicF0Factor = extensions.KHR_materials_specular?.specularFactor ?? 1;
   if (emissiveFactor) material.emissiveColor = Color3.FromArray(emissiveFactor);
   material.emissiveIntensity = extensions.KHR_materials_emissive_strength?.emissiveStrength ?? 1;
-  material.emissiveTexture = await embedded(scene, glb, emissiveTexture, true);
+  material.emissiveTexture = await embedded(scene, glb, emissiveTexture, "color");
 }
 
 // A promise of { material, skin, settings }; skin is null for another class. `settings` are those of scene.json, `shared` is what all

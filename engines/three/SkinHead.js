@@ -6,17 +6,18 @@
 //     renderer.shadowMap.enabled = true;
 
 import {
-  AnimationMixer, Color, DirectionalLight, DoubleSide, EquirectangularReflectionMapping, Group, LoopOnce, NoColorSpace, ObjectSpaceNormalMap,
-  PerspectiveCamera, PointLight, SpotLight, TextureLoader, Vector3,
+  AnimationMixer, Color, DataTexture, DirectionalLight, DoubleSide, EquirectangularReflectionMapping, Group, LinearFilter,
+  LinearMipmapLinearFilter, LoopOnce, NoColorSpace, ObjectSpaceNormalMap, PerspectiveCamera, PointLight, SpotLight, TextureLoader, Vector3,
 } from "three/webgpu";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/addons/loaders/HDRLoader.js";
-import { metres, readSettings, shadowFrustum } from "./SkinHeadFiles.js";
+import { metres, readBytes, readSettings, shadowFrustum } from "./SkinHeadFiles.js";
+import { mipLevels, pictureOf } from "./SkinMipLevels.js";
 import { loadSkinTable, SkinNodeMaterial } from "./SkinNodeMaterial.js";
 
 const vector = lengthsMm => new Vector3(...metres(lengthsMm));
 
-// Of lengths, directions and factors: not colours.
+// Of lengths and factors: not colours.
 async function loadData(url) {
   const texture = await new TextureLoader().loadAsync(url)
     .catch(() => { throw new Error(`A map of the head cannot be loaded from ${url}`); });
@@ -25,10 +26,21 @@ async function loadData(url) {
   return texture;
 }
 
+// A texture of directions.
+function directions(picture) {
+  const mipmaps = mipLevels(picture), [{ data, width, height }] = mipmaps, texture = new DataTexture(data, width, height);
+  return Object.assign(texture, { mipmaps, minFilter: LinearMipmapLinearFilter, magFilter: LinearFilter, needsUpdate: true });
+}
+
+const loadDirections = async url => directions(await pictureOf(new Blob([await readBytes(url)])));
+
+// One of glTF with such levels.
+const withLevels = ({ image, wrapS, wrapT, channel }) => Object.assign(directions(image), { wrapS, wrapT, channel });
+
 function skinMaterial(source, settings, shared) {
-  const { name, color, map, normalMap, normalScale, roughness, roughnessMap, aoMap, side, shadowSide } = source;
+  const { name, color, map, normalScale, roughness, roughnessMap, aoMap, side, shadowSide } = source;
   return new SkinNodeMaterial({
-    name, color, map, normalMap, normalScale, roughness, roughnessMap, aoMap, side, shadowSide, ...shared,
+    name, color, map, normalMap: source.normalMap && withLevels(source.normalMap), normalScale, roughness, roughnessMap, aoMap, side, shadowSide, ...shared,
     f0: settings.f0, specularMap: source.specularIntensityMap ?? null, twoLobes: false,
   });
 }
@@ -46,7 +58,7 @@ async function loadObject(folder, object, shared, skins) {
     if (!made.has(source)) {
       const skin = skinMaterial(source, one, shared);
       if (one.object_normal_map) {
-        skin.normalMap = await loadData(folder + one.object_normal_map);
+        skin.normalMap = await loadDirections(folder + one.object_normal_map);
         skin.normalMapType = ObjectSpaceNormalMap;
       }
       made.set(source, skin);
@@ -117,7 +129,7 @@ export async function loadSkinHead(folder = new URL("./head/", import.meta.url).
   const settings = await readSettings(folder, "three"), { baked_normals, thickness, environment, camera } = settings;
   const shared = { table: await loadSkinTable(), penumbraMm: settings.penumbra_mm }, frustum = shadowFrustum(settings);
   if (baked_normals) {
-    const [red, green, spread] = await Promise.all(baked_normals.map(file => loadData(folder + file)));
+    const [red, green, spread] = await Promise.all(baked_normals.map(file => loadDirections(folder + file)));
     shared.bakedNormals = { red, green, spread };
   }
   if (thickness) {

@@ -232,9 +232,8 @@ TEST_P(BrowserHead, has_the_renderers_share_and_a_mistake_loses_it) {
         {"skin", "", "lambert"}, {"normals", "", "lambert"}, {"curvature", "", "lambert"}};
     const std::map<std::string, double> share = shares(pictures);
     ASSERT_EQ(share.size(), 4u);
-    EXPECT_GT(share.at("skin"), (device() == "webgpu" ? 0.65 : 0.8) * share.at("preintegrated"));
-    // On WebGPU, which captures less, the baked normals add .01 to .03 of share: too little to tell.
-    if (device() == "webgl") EXPECT_LT(share.at("normals"), share.at("skin") - 0.03);
+    EXPECT_GT(share.at("skin"), 0.8 * share.at("preintegrated"));
+    EXPECT_LT(share.at("normals"), share.at("skin") - 0.03);
     EXPECT_LT(share.at("curvature"), share.at("skin") - 0.03);
     const Image skin = read("skin"), nothing(48, 48, 3),
                 gain = change(rendered(kPreintegrated + "curvature"), rendered(kPreintegrated + "none"));

@@ -18,7 +18,7 @@ function dress(head, name) {
     if (name === "curvature") skin.curvatureGain = 0.001;
     if (name === "srgb" && skin.bakedNormals) for (const map of Object.values(skin.bakedNormals)) map.colorSpace = SRGBColorSpace;
     if (name === "levels" && skin.bakedNormals)
-      for (const map of Object.values(skin.bakedNormals)) Object.assign(map, { generateMipmaps: false, minFilter: LinearFilter, needsUpdate: true });
+      for (const map of Object.values(skin.bakedNormals)) Object.assign(map, { mipmaps: [], minFilter: LinearFilter, needsUpdate: true });
   }
 }
 
