@@ -18,6 +18,7 @@
 #include "dermis/image/io.h"
 #include "dermis/image/resample.h"
 #include "engines/readme_steps.h"
+#include "mesh/mesh_files.h"
 #include "support/temporary_directory.h"
 #include "test_paths.h"
 
@@ -33,6 +34,11 @@ constexpr const char* kGodot = DERMIS_BINARY_DIR "/npm/node_modules/react-godot-
 // A picture of the page, and the one without scattering that it is compared with.
 struct Picture {
     std::string name, query, lambert = "";
+};
+
+// Pictures at rest and at a moment of a clip; mistake: then, with bakes that do not turn with the surface.
+struct Motion {
+    Image rest, rest_lambert, moved, moved_lambert, mistake;
 };
 
 class HeadPackage : public testing::TestWithParam<const char*> {
@@ -127,17 +133,40 @@ class HeadPackage : public testing::TestWithParam<const char*> {
     /// mistake: the error of scattering's effect, over the effect of preintegrated with these settings.
     void expect_effect(const std::string& settings, double most_error);
 
+    /// A page draws several pictures: loading a head takes most of its time.
+    Motion draw_motion(const std::string& clip, const std::string& time_s) {
+        const std::string moment = "&clip=" + clip + "&time=" + time_s;
+        const ProgramResult drawn = draw({{"all", device() + "&looks=skin,lambert&rest" + moment},
+                                          {"mistake", device() + "&mistake=frames" + moment}});
+        EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+        const Image all = read("all");
+        return {square(all, 0, 4), square(all, 1, 4), square(all, 2, 4), square(all, 3, 4), read("mistake")};
+    }
+
+    /// Against Dermis with what was baked at rest: the errors of scattering's effect, and Lambert's motion.
+    void expect_motion(const Motion& drawn, const std::string& moment, const std::string& settings,
+                       double most_error);
+
+    // Turned in the scene: what is baked is in another space than the vertices of the file.
+    void use_turned_bust() {
+        scene_ = path("turned.toml");
+        std::ofstream(scene_) << "[[mesh]]\nfile = \"builtin:bust\"\nrotate_deg = [0, 30, 0]\n";
+    }
+    // A face with joints, targets, eyes and teeth; the camera does not follow it.
+    static fs::path face() { return test::asset("ict_face/ict_moving.glb"); }
+    void use_face() {
+        scene_ = path("face.toml");
+        std::ofstream(scene_) << "[[mesh]]\nfile = \"" << face().string()
+                              << "\"\n[camera]\ntarget_mm = [0, 0, 20]\ndistance_mm = 783\n";
+    }
+
     TemporaryDirectory directory_;
     std::string scene_ = "bust";
 };
 
-// Turned in the scene: what is baked is in another space than the vertices of the file.
 class MovingHeadPackage : public HeadPackage {
   protected:
-    MovingHeadPackage() {
-        scene_ = path("turned.toml");
-        std::ofstream(scene_) << "[[mesh]]\nfile = \"builtin:bust\"\nrotate_deg = [0, 30, 0]\n";
-    }
+    MovingHeadPackage() { use_turned_bust(); }
 };
 
 class BrowserHead : public HeadPackage {};
@@ -168,14 +197,32 @@ class GodotHead : public HeadPackage {
 // Unity cannot run here: unity_head draws with the package's own shaders.
 class UnityHead : public HeadPackage {
   protected:
-    void SetUp() override {
-        const ProgramResult made = shell(DERMIS_PROGRAM " export --engine unity bust -o " + path("package"));
+    void SetUp() override { export_unity(); }
+    void export_unity() {
+        const ProgramResult made =
+            shell(DERMIS_PROGRAM " export --engine unity " + scene_ + " -o " + path("package"));
         ASSERT_EQ(made.exit_code, 0) << made.err;
     }
     ProgramResult draw_one(const std::string& name, const std::string& options) {
         return shell(DERMIS_UNITY_HEAD " " + path("package") + " " + path(name + ".exr") +
                      " --side 48 --points 3 " + options);
     }
+    Image drawn(const std::string& name, const std::string& options) {
+        const ProgramResult result = draw_one(name, options);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return read(name);
+    }
+    void expect_unity_motion(const std::string& moment) {
+        export_unity();
+        expect_motion(
+            {drawn("rest", ""), drawn("rest_lambert", "--lambert"), drawn("moved", moment),
+             drawn("moved_lambert", moment + " --lambert"), drawn("mistake", moment + " --mistake frames")},
+            moment, "", 0.3);
+    }
+};
+class MovingUnityHead : public UnityHead {
+  protected:
+    void SetUp() override {}
 };
 const auto kName = [](const auto& one) { return std::string(one.param); };
 INSTANTIATE_TEST_SUITE_P(, BrowserHead,
@@ -186,6 +233,7 @@ INSTANTIATE_TEST_SUITE_P(, MovingHeadPackage,
                          kName);
 INSTANTIATE_TEST_SUITE_P(, GodotHead, testing::Values("godot"), kName);
 INSTANTIATE_TEST_SUITE_P(, UnityHead, testing::Values("unity"), kName);
+INSTANTIATE_TEST_SUITE_P(, MovingUnityHead, testing::Values("unity"), kName);
 
 const std::string kPreintegrated = "--technique preintegrated --set gain=";
 
@@ -224,6 +272,27 @@ void HeadPackage::expect_effect(const std::string& settings, double most_error) 
     EXPECT_LT(distance(change(read("gain"), read("scattering")), gain), 0.2 * distance(gain, nothing));
 }
 
+void HeadPackage::expect_motion(const Motion& drawn, const std::string& moment, const std::string& settings,
+                                double most_error) {
+    const std::string then = moment + " --scene animation.rest_bakes=all";
+    const Image lambert = rendered("--technique lambert"),
+                lambert_then = rendered("--technique lambert" + then), nothing(48, 48, 3);
+    const Image effect = change(rendered(kPreintegrated + "none" + settings), lambert),
+                effect_then = change(rendered(kPreintegrated + "none" + settings + then), lambert_then);
+    const auto error_of = [&](const char* name, const Image& found, const Image& expected) {
+        const double error = distance(found, expected) / distance(expected, nothing);
+        RecordProperty(name, std::to_string(error));
+        return error;
+    };
+    const double at_rest = error_of("rest", change(drawn.rest, drawn.rest_lambert), effect);
+    EXPECT_LT(at_rest, most_error);
+    EXPECT_LT(error_of("moved", change(drawn.moved, drawn.moved_lambert), effect_then), at_rest + 0.06);
+    EXPECT_GT(error_of("mistake", change(drawn.mistake, drawn.moved_lambert), effect_then), 0.6);
+    // Engines have weaker reflections at the silhouette.
+    const double motion = distance(lambert_then, lambert);
+    EXPECT_NEAR(distance(drawn.moved_lambert, drawn.rest_lambert), motion, 0.4 * motion);
+}
+
 }  // namespace
 
 TEST_P(BrowserHead, has_the_renderers_share_and_a_mistake_loses_it) {
@@ -251,36 +320,25 @@ TEST_P(BrowserHead, has_the_renderers_share_and_a_mistake_loses_it) {
     for (const auto& [name, value] : share) RecordProperty(name, std::to_string(value));
 }
 
-// A moment of the clip with what was baked at rest, as `dermis render` draws it. Where the bakes do not turn
-// with the surface the head has light from elsewhere. A page draws several pictures: loading a head takes
-// most of its time.
+// Where the bakes do not turn with the surface the head has light from elsewhere.
 TEST_P(MovingHeadPackage, plays_its_clip_and_the_bakes_turn_with_the_surface) {
     const bool is_godot = engine() == "godot";
-    const ProgramResult drawn = draw({{"all", device() + "&looks=skin,lambert&rest&clip=greet&time=1.7"},
-                                      {"mistake", device() + "&mistake=frames&clip=greet&time=1.7"}});
-    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
-    const Image all = read("all");
-    const Image rest = square(all, 0, 4), rest_lambert = square(all, 1, 4), moved = square(all, 2, 4),
-                moved_lambert = square(all, 3, 4);
+    expect_motion(draw_motion("greet", "1.7"), " --clip greet --time 1.7",
+                  is_godot ? " --set shadow=plain" : "", is_godot ? 0.35 : 0.3);
+}
 
-    const std::string settings = is_godot ? " --set shadow=plain" : "",
-                      moment = " --clip greet --time 1.7 --scene animation.rest_bakes=all";
-    const Image lambert = rendered("--technique lambert"),
-                lambert_then = rendered("--technique lambert" + moment), nothing(48, 48, 3);
-    const Image effect = change(rendered(kPreintegrated + "none" + settings), lambert),
-                effect_then = change(rendered(kPreintegrated + "none" + settings + moment), lambert_then);
-    const auto error_of = [&](const char* name, const Image& found, const Image& expected) {
-        const double error = distance(found, expected) / distance(expected, nothing);
-        RecordProperty(name, std::to_string(error));
-        return error;
-    };
-    const double at_rest = error_of("rest", change(rest, rest_lambert), effect);
-    EXPECT_LT(at_rest, is_godot ? 0.35 : 0.3);
-    EXPECT_LT(error_of("moved", change(moved, moved_lambert), effect_then), at_rest + 0.03);
-    EXPECT_GT(error_of("mistake", change(read("mistake"), moved_lambert), effect_then), 0.6);
-    // three.js has weaker reflections at the silhouette.
-    const double motion = distance(lambert_then, lambert);
-    EXPECT_NEAR(distance(moved_lambert, rest_lambert), motion, 0.35 * motion);
+TEST_P(MovingUnityHead, plays_its_clip_and_the_bakes_turn_with_the_surface) {
+    use_turned_bust();
+    expect_unity_motion(" --clip greet --time 1.7");
+    const ProgramResult none = draw_one("none", "--clip walk --time 1");
+    EXPECT_EQ(none.exit_code, 1);
+    EXPECT_NE(none.err.find("no clip 'walk'"), std::string::npos) << none.err;
+}
+
+TEST_P(MovingUnityHead, follows_its_joints_and_targets) {
+    if (!fs::exists(face())) GTEST_SKIP() << face() << " is needed";
+    use_face();
+    expect_unity_motion(" --clip talk --time 1.2");
 }
 
 // Godot gives no shader its shadow map: edges of shadows stay plain.

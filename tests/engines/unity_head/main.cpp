@@ -1,10 +1,11 @@
 // Draws the head of a Unity package without Unity: the package's HLSL, compiled by glslc, run by Vulkan over
 // the package's own meshes and pictures, as a linear EXR for `dermis compare --picture`.
 //
-//     build/tests/unity_head PACKAGE picture.exr [--side 96] [--points 4] [--gain] [--lambert] [--mistake
-//     normals|curvature|srgb]
+//     build/tests/unity_head PACKAGE picture.exr [--side 96] [--points 4] [--gain] [--lambert]
+//                            [--clip NAME --time SECONDS] [--mistake normals|curvature|srgb|frames]
 //
-// --lambert is the skin without scattering, --gain has what curved skin returns beyond flat skin.
+// --lambert is the skin without scattering, --gain has what curved skin returns beyond flat skin. A clip
+// moves the head as Unity's SkinnedMeshRenderer would.
 
 #include <cstdio>
 #include <cstdlib>
@@ -22,8 +23,11 @@ int main(int count, char** values) {
         } else if (word == "--side" || word == "--points") {
             (word == "--side" ? settings.side : settings.points) = std::atoi(next.c_str());
             ++i;
-        } else if (word == "--mistake") {
-            settings.mistake = next;
+        } else if (word == "--mistake" || word == "--clip") {
+            (word == "--clip" ? settings.moment.clip : settings.mistake) = next;
+            ++i;
+        } else if (word == "--time") {
+            settings.moment.time_s = std::atof(next.c_str());
             ++i;
         } else {
             files.push_back(word);

@@ -1,7 +1,5 @@
 #include "engines/unity_head/package.h"
 
-#include <array>
-#include <cstring>
 #include <regex>
 
 #include "dermis/base/file.h"
@@ -16,38 +14,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 namespace {
-
-// The JSON and the bytes of a GLB.
-struct Glb {
-    json document;
-    std::span<const std::byte> bytes;
-};
-
-template <class T>
-std::vector<T> numbers_of(const Glb& glb, size_t accessor_index, size_t each) {
-    const json& accessor = glb.document["accessors"][accessor_index];
-    const json& view = glb.document["bufferViews"][size_t(accessor["bufferView"])];
-    const size_t start = view.value("byteOffset", size_t(0)) + accessor.value("byteOffset", size_t(0));
-    const size_t stride = view.value("byteStride", each * sizeof(T)), count = accessor["count"];
-    std::vector<T> numbers(count * each);
-    for (size_t i = 0; i < count; ++i)
-        std::memcpy(&numbers[i * each], glb.bytes.data() + start + i * stride, each * sizeof(T));
-    return numbers;
-}
-
-std::vector<uint32_t> indices_of(const Glb& glb, size_t accessor_index) {
-    constexpr int kU16 = 5123;
-    if (glb.document["accessors"][accessor_index]["componentType"] != kU16)
-        return numbers_of<uint32_t>(glb, accessor_index, 1);
-    const std::vector<uint16_t> narrow = numbers_of<uint16_t>(glb, accessor_index, 1);
-    return {narrow.begin(), narrow.end()};
-}
-
-int numbers_in(const std::string& attribute) {
-    if (attribute.starts_with("TEXCOORD_")) return 2;
-    if (attribute == "TANGENT") return 4;
-    return attribute == "POSITION" || attribute == "NORMAL" ? 3 : 0;
-}
 
 // glTFast: another handedness by x, and the origin of textures at the bottom. A position has a fourth number,
 // as shaders read it.
@@ -114,24 +80,26 @@ void read_properties(const std::string& shader, Material& material) {
 
 }  // namespace
 
-Result<std::vector<Primitive>> import_glb(const fs::path& path) {
-    DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes, read_file(path));
-    uint32_t length = 0;
-    if (bytes.size() < 28) return Error{path.string() + ": no GLB"};
-    std::memcpy(&length, bytes.data() + 12, 4);
-    const char* text = reinterpret_cast<const char*>(bytes.data() + 20);
-    const Glb glb = {json::parse(text, text + length), std::span(bytes).subspan(20 + length + 8)};
+Result<std::vector<Primitive>> import_glb(const fs::path& path, const Moment& moment) {
+    DERMIS_TRY_ASSIGN(const Glb glb, read_glb(path));
+    DERMIS_TRY_ASSIGN(const std::vector<PosedNode> nodes, posed_nodes(glb, moment));
     std::vector<Primitive> primitives;
-    for (const json& mesh : glb.document["meshes"])
-        for (const json& one : mesh["primitives"]) {
+    for (size_t node = 0; node < nodes.size(); ++node) {
+        const json& source = glb.document["nodes"][node];
+        if (!source.contains("mesh")) continue;
+        for (const json& one : glb.document["meshes"][size_t(source["mesh"])]["primitives"]) {
             Primitive made;
+            const Shape shape = posed_shape(glb, nodes, node, one);
+            as_unity(made, "POSITION", shape.positions);
+            as_unity(made, "NORMAL", shape.normals);
+            if (!shape.tangents.empty()) as_unity(made, "TANGENT", shape.tangents);
             for (const auto& [name, accessor] : one["attributes"].items())
-                if (const int each = numbers_in(name); each > 0)
-                    as_unity(made, name, numbers_of<float>(glb, accessor, size_t(each)));
-            made.indices = indices_of(glb, one["indices"]);
+                if (name.starts_with("TEXCOORD_")) as_unity(made, name, floats_of(glb, accessor));
+            made.indices = integers_of(glb, one["indices"]);
             made.material = glb.document["materials"][size_t(one["material"])]["name"];
             primitives.push_back(std::move(made));
         }
+    }
     return primitives;
 }
 

@@ -12,6 +12,7 @@
 #include "dermis/base/result.h"
 #include "dermis/base/vec.h"
 #include "dermis/gpu/device.h"
+#include "engines/unity_head/pose.h"
 
 namespace dermis::unity_head {
 
@@ -24,7 +25,8 @@ struct Primitive {
     std::string material;
 };
 
-[[nodiscard]] Result<std::vector<Primitive>> import_glb(const std::filesystem::path& path);
+[[nodiscard]] Result<std::vector<Primitive>> import_glb(const std::filesystem::path& path,
+                                                        const Moment& moment);
 
 /// A picture with the bottom row first, as Unity has it, by the .meta beside it: encoding and mip levels.
 [[nodiscard]] Result<gpu::TextureData> import_picture(const std::filesystem::path& path);
