@@ -121,7 +121,8 @@ const std::vector<Engine>& all_engines() {
          .texts = {{"addons/dermis_skin/skin.gdshaderinc", shading::Language::gdshader}},
          .license_path = "addons/dermis_skin/LICENSE",
          .head_path = "addons/dermis_skin/head/",
-         .head_format = {.map_files = true},
+         // Its importer interpolates rotations of cubic splines as linear keys.
+         .head_format = {.map_files = true, .linear_keys = true},
          .table_path = "addons/dermis_skin/skin_table.exr",
          .v_origin = VOrigin::top,
          .add_files = add_import_files},

@@ -189,7 +189,7 @@ Result<json> head_material_json(const SceneObject& object, size_t number, const 
 }
 
 // The mesh gets tangents, which its frames need. Atlas and tangents are those of `mesh`.
-Result<std::optional<Rig>> rig_of_head(const Scene& scene, const SceneObject& object, Mesh& mesh,
+Result<std::optional<Rig>> rig_of_head(const HeadInput& input, const SceneObject& object, Mesh& mesh,
                                        Head& head) {
     if (object.motion.empty()) return std::optional<Rig>();
     if (!ScenePoser::can_pose(object)) {
@@ -204,7 +204,9 @@ Result<std::optional<Rig>> rig_of_head(const Scene& scene, const SceneObject& ob
         }
     SceneObject moving = object;
     moving.mesh = mesh;
-    return rig_of(moving, scene.motion.pose());
+    DERMIS_TRY_ASSIGN(std::optional<Rig> rig, rig_of(moving, input.scene.motion.pose()));
+    if (rig && input.format.linear_keys) make_keys_linear(*rig);
+    return rig;
 }
 
 Result<json> head_object_json(const HeadInput& input, size_t index, Head& head) {
@@ -229,7 +231,7 @@ Result<json> head_object_json(const HeadInput& input, size_t index, Head& head) 
     }
     mesh.atlas_uvs = atlas_uvs_of(mesh);
     DERMIS_TRY_ASSIGN(auto numbers, vertex_numbers(mesh, input.occlusion_weights));
-    DERMIS_TRY_ASSIGN(const std::optional<Rig> rig, rig_of_head(input.scene, object, mesh, head));
+    DERMIS_TRY_ASSIGN(const std::optional<Rig> rig, rig_of_head(input, object, mesh, head));
     if (rig) add_frames(mesh, numbers);
     for (json& material : materials) material["moves"] = rig.has_value();
     DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, glb_bytes(mesh, {}, {}, numbers, rig ? &*rig : nullptr));

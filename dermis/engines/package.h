@@ -54,6 +54,7 @@ struct PackageGain {
 /// What an engine needs of a head beyond what every head holds.
 struct HeadFormat {
     bool map_files = false;      ///< the maps of skin are files of their own, not in the GLB
+    bool linear_keys = false;    ///< clips without cubic splines
     bool ambient_probe = false;  ///< scene.json has Unity's numbers for light from all around
 };
 

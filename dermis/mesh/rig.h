@@ -69,6 +69,9 @@ struct Rig {
     std::vector<RigClip> clips;
 };
 
+/// Cubic splines of all clips become linear keys, 60 a second, for readers that have no splines of rotations.
+void make_keys_linear(Rig& rig);
+
 /// The part of `mesh` that the submeshes make: its vertices and their attributes, without materials.
 [[nodiscard]] RigPart part_of(const Mesh& mesh, std::span<const size_t> submeshes);
 

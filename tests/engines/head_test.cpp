@@ -169,6 +169,15 @@ class MovingHeadPackage : public HeadPackage {
     MovingHeadPackage() { use_turned_bust(); }
 };
 
+class MovingFacePackage : public HeadPackage {
+  protected:
+    void SetUp() override {
+        if (!fs::exists(face())) GTEST_SKIP() << face() << " is needed";
+        use_face();
+        HeadPackage::SetUp();
+    }
+};
+
 class BrowserHead : public HeadPackage {};
 
 // The head is made by the lines of the README's steps.
@@ -231,6 +240,7 @@ INSTANTIATE_TEST_SUITE_P(, BrowserHead,
 INSTANTIATE_TEST_SUITE_P(, MovingHeadPackage,
                          testing::Values("three", "three_webgpu", "babylon", "babylon_webgpu", "godot"),
                          kName);
+INSTANTIATE_TEST_SUITE_P(, MovingFacePackage, testing::Values("godot"), kName);
 INSTANTIATE_TEST_SUITE_P(, GodotHead, testing::Values("godot"), kName);
 INSTANTIATE_TEST_SUITE_P(, UnityHead, testing::Values("unity"), kName);
 INSTANTIATE_TEST_SUITE_P(, MovingUnityHead, testing::Values("unity"), kName);
@@ -325,6 +335,11 @@ TEST_P(MovingHeadPackage, plays_its_clip_and_the_bakes_turn_with_the_surface) {
     const bool is_godot = engine() == "godot";
     expect_motion(draw_motion("greet", "1.7"), " --clip greet --time 1.7",
                   is_godot ? " --set shadow=plain" : "", is_godot ? 0.35 : 0.3);
+}
+
+// Godot applies skins and targets before its shaders, without tangents.
+TEST_P(MovingFacePackage, follows_its_joints_and_targets) {
+    expect_motion(draw_motion("talk", "1.2"), " --clip talk --time 1.2", " --set shadow=plain", 0.45);
 }
 
 TEST_P(MovingUnityHead, plays_its_clip_and_the_bakes_turn_with_the_surface) {

@@ -11,6 +11,7 @@
 #include "dermis/base/file.h"
 #include "dermis/mesh/write_mesh.h"
 #include "dermis/scene/rig_scene.h"
+#include "mesh/mesh_files.h"
 #include "support/built_in.h"
 #include "support/moving_sheet.h"
 #include "support/temporary_directory.h"
@@ -42,10 +43,13 @@ class MovingHead : public testing::Test {
         EXPECT_TRUE(found) << found.error().message;
         return found ? std::move(found->objects.at(0)) : SceneObject();
     }
-    static std::vector<std::byte> written(const SceneObject& object, const Pose& pose) {
-        const auto rig = rig_of(object, pose);
+    enum class Clips { as_they_are, without_splines };
+    static std::vector<std::byte> written(const SceneObject& object, const Pose& pose,
+                                          Clips clips = Clips::as_they_are) {
+        auto rig = rig_of(object, pose);
         EXPECT_TRUE(rig) << rig.error().message;
         if (!rig || !*rig) return ADD_FAILURE() << "no rig", std::vector<std::byte>();
+        if (clips == Clips::without_splines) make_keys_linear(**rig);
         Mesh mesh = object.mesh;
         for (Material& material : mesh.materials) material = {.name = material.name};
         const auto bytes = glb_bytes(mesh, {}, {}, {}, &**rig);
@@ -141,6 +145,26 @@ TEST_F(MovingHead, a_scene_in_a_pose_opens_in_it_and_moves_from_there) {
     const Mesh by_target = read_back(written(loaded(scene, lifted), lifted), {});
     EXPECT_LT(difference(loaded(scene, lifted).mesh, by_target).position, kMostError);
     EXPECT_GT(difference(loaded(scene, {}).mesh, by_target).position, 0.01);
+}
+
+TEST_F(MovingHead, without_splines_it_moves_as_with_them) {
+    const fs::path face = test::asset("ict_face/ict_moving.glb");
+    if (!fs::exists(face)) GTEST_SKIP() << face << " is needed";
+    const std::string scene = scene_of(face.string());
+    const auto splines = written(loaded(scene, {}), {});
+    const auto linear = written(loaded(scene, {}), {}, Clips::without_splines);
+    const auto has_splines = [](const std::vector<std::byte>& glb) {
+        const std::string_view text(reinterpret_cast<const char*>(glb.data()), glb.size());
+        return text.find("CUBICSPLINE") != std::string_view::npos;
+    };
+    EXPECT_TRUE(has_splines(splines));
+    EXPECT_FALSE(has_splines(linear));
+    // Its own keys are at whole seconds and 2.2: taken alone they leave the neck .8 degrees behind.
+    for (const double time_s : {0.41, 1.2, 2.0, 3.77, 4.0}) {
+        const Pose pose = {.clip = "talk", .time_s = time_s};
+        EXPECT_LT(difference(read_back(splines, pose), read_back(linear, pose)).position, 5e-5) << time_s;
+    }
+    expect_valid(linear);
 }
 
 TEST_F(MovingHead, the_built_in_head_greets_in_its_file) {

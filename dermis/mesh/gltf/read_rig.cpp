@@ -353,6 +353,13 @@ RigPart part_of(const Mesh& mesh, std::span<const size_t> submeshes) {
     return part;
 }
 
+void make_keys_linear(Rig& rig) {
+    constexpr double kStep_s = 1.0 / 60;
+    for (RigClip& clip : rig.clips)
+        for (RigChannel& channel : clip.channels)
+            channel.keys = gltf::linear_keys(channel.keys, kStep_s, channel.path == "rotation");
+}
+
 Result<Rig> read_rig(std::span<const std::byte> bytes, const std::filesystem::path& name,
                      const ReadSibling& read_sibling, const Mesh& mesh, const Pose& pose,
                      const RigNode& root) {

@@ -70,4 +70,20 @@ std::vector<double> sample(const Keys& keys, double time_s, bool rotation) {
     return value;
 }
 
+Keys linear_keys(const Keys& keys, double step_s, bool rotation) {
+    if (keys.interpolation != Interpolation::cubic_spline) return keys;
+    Keys linear = {.interpolation = Interpolation::linear, .width = keys.width};
+    const auto add = [&](double time_s) {
+        linear.times_s.push_back(float(time_s));
+        for (const double value : sample(keys, time_s, rotation)) linear.values.push_back(float(value));
+    };
+    for (size_t k = 0; k + 1 < keys.times_s.size(); ++k) {
+        const double start_s = keys.times_s[k], length_s = keys.times_s[k + 1] - start_s;
+        const int parts = std::max(int(std::ceil(length_s / step_s)), 1);
+        for (int i = 0; i < parts; ++i) add(start_s + length_s * i / parts);
+    }
+    add(keys.times_s.back());
+    return linear;
+}
+
 }  // namespace dermis::inline mesh::gltf

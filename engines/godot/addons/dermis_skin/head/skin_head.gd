@@ -55,9 +55,6 @@ func _add_object(object: Dictionary) -> void:
 			if one.class == "skin":
 				var skin := _skin_material(one)
 				child.set_surface_override_material(surface, skin)
-				for material: ShaderMaterial in [skin, skin.next_pass]:
-					material.set_shader_parameter("skinned", child.skin != null)
-					material.set_shader_parameter("baked_basis", (global_transform.affine_inverse() * child.global_transform).basis)
 			elif one.class == "translucent":
 				child.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_OFF
 
