@@ -40,8 +40,8 @@ const withLevels = ({ image, wrapS, wrapT, channel }) => Object.assign(direction
 function skinMaterial(source, settings, shared) {
   const { name, color, map, normalScale, roughness, roughnessMap, aoMap, side, shadowSide } = source;
   return new SkinNodeMaterial({
-    name, color, map, normalMap: source.normalMap && withLevels(source.normalMap), normalScale, roughness, roughnessMap, aoMap, side, shadowSide, ...shared,
-    f0: settings.f0, specularMap: source.specularIntensityMap ?? null, twoLobes: false,
+    name, color, map, normalScale, roughness, roughnessMap, aoMap, side, shadowSide, ...shared,
+    normalMap: source.normalMap && withLevels(source.normalMap), f0: settings.f0, specularMap: source.specularIntensityMap ?? null, twoLobes: false,
   });
 }
 
