@@ -24,8 +24,8 @@ std::array<Slot, 32> g_slots;
 
 // While a program ends, its other threads still run, and one could make a temporary file after
 // end_temporary_files() has removed them. Code that writes a temporary file holds a Writing. Once the end has
-// begun, its constructor never returns; the removal first waits for the other threads that hold one, 300 ms at
-// most: by then a file that is being written exists, and is removed.
+// begun, its constructor never returns; the removal first waits for the other threads that hold one, 300 ms
+// at most: by then a file that is being written exists, and is removed.
 std::atomic<bool> g_ending = false;
 std::atomic<int> g_writing = 0;
 thread_local int t_writing = 0;  // a signal may come to a thread that holds one

@@ -79,7 +79,9 @@ Keys linear_keys(const Keys& keys, double step_s, bool rotation) {
     };
     for (size_t k = 0; k + 1 < keys.times_s.size(); ++k) {
         const double start_s = keys.times_s[k], length_s = keys.times_s[k + 1] - start_s;
-        const int parts = std::max(int(std::ceil(length_s / step_s)), 1);
+        // A cubic of any length is near so many chords.
+        constexpr double kMostParts = 64;
+        const int parts = int(std::clamp(std::ceil(length_s / step_s), 1.0, kMostParts));
         for (int i = 0; i < parts; ++i) add(start_s + length_s * i / parts);
     }
     add(keys.times_s.back());

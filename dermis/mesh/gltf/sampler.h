@@ -23,8 +23,8 @@ struct Keys {
 /// great arc, of length 1.
 [[nodiscard]] std::vector<double> sample(const Keys& keys, double time_s, bool rotation);
 
-/// A cubic spline as linear keys: its own, and between two of them as many as leave `step_s` or less. Keys of
-/// another interpolation are returned as they are.
+/// A cubic spline as linear keys: its own, and between two of them as many as leave `step_s` or less, 63 at
+/// most. Keys of another interpolation are returned as they are.
 [[nodiscard]] Keys linear_keys(const Keys& keys, double step_s, bool rotation);
 
 }  // namespace dermis::inline mesh::gltf
