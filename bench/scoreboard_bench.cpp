@@ -91,7 +91,8 @@ constexpr const char* kText =
     "%d x %d (unit scenes 96 x 96). **Modelled**: the same for a %s at %d x %d, a model\n"
     "([assumptions](performance.md)); empty where Mesa's RADV was not installed. Memory: tables and images "
     "of the technique\n"
-    "alone. scoreboard.csv also has RMSE, FLIP and ΔE 2000.\n\n"
+    "alone. scoreboard.csv also has RMSE, FLIP and ΔE 2000. Shares of what moves: "
+    "[motion](figures.md#motion).\n\n"
     "`tools/scoreboard` makes this page, [scoreboard.csv](scoreboard.csv) and the plot again.\n\n"
     "![Captured share over cost](scoreboard.svg)\n\n";
 

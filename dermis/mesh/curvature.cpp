@@ -7,7 +7,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -51,23 +50,17 @@ CurvatureTensor to_tensor(const Eigen::Matrix3d& s) {
 }
 
 CurvatureTensor fit_at(const WeldedSurface& surface, uint32_t centre, const Neighbourhood& around) {
-    const auto& [neighbours, sigma_mm] = around;
-    const Vec3 origin = surface.positions[centre], n = surface.normals[centre];
-    const Vec3 x_axis = normalize(cross(std::abs(n.x) < 0.6f ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n));
-    const Vec3 y_axis = cross(n, x_axis);
-    double scale = 0;  // lengths over the farthest neighbour: the terms then have like sizes
-    for (const Neighbour& other : neighbours)
-        scale = std::max(scale, double(length(surface.positions[other.position] - origin)));
+    const FitFrame frame(surface, centre, around.all, around.sigma_mm);
+    const double scale = frame.scale_mm;
     if (scale == 0) return {};
     Eigen::Matrix<double, kTerms, kTerms> normal_matrix;
     normal_matrix.setZero();
     Terms rhs = Terms::Zero();
-    for (const Neighbour& other : neighbours) {
-        const Vec3 p = surface.positions[other.position] - origin;
-        const double x = dot(p, x_axis) / scale, y = dot(p, y_axis) / scale, z = dot(p, n) / scale;
-        // Unsmoothed, the foot itself counts most, so that the fit passes near it.
-        const double t = other.distance_mm / (sigma_mm > 0 ? sigma_mm : 0.7 * scale);
-        const double weight = std::exp(-t * t / 2) * (sigma_mm > 0 ? surface.areas[other.position] : 1);
+    for (const Neighbour& other : around.all) {
+        const Vec3 p = surface.positions[other.position] - frame.origin;
+        const double x = dot(p, frame.x_axis) / scale, y = dot(p, frame.y_axis) / scale,
+                     z = dot(p, frame.n) / scale;
+        const double weight = frame.weight(surface, other);
         Terms terms;
         terms << 1, x, y, (x * x + z * z / 2) / 2, x * y, (y * y + z * z / 2) / 2;
         normal_matrix.selfadjointView<Eigen::Lower>().rankUpdate(terms, weight);
@@ -86,7 +79,7 @@ CurvatureTensor fit_at(const WeldedSurface& surface, uint32_t centre, const Neig
     Eigen::Matrix3d axes;
     for (int row = 0; row < 3; ++row) {
         const auto of = [row](Vec3 v) { return double(row == 0 ? v.x : row == 1 ? v.y : v.z); };
-        axes.row(row) << of(x_axis), of(y_axis), of(n);
+        axes.row(row) << of(frame.x_axis), of(frame.y_axis), of(frame.n);
     }
     return to_tensor(axes * tensor * axes.transpose());
 }

@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <cmath>
 
 #include "dermis/base/parallel.h"
 #include "dermis/mesh/neighbourhood.h"
@@ -25,23 +24,18 @@ std::vector<Neighbour> thinned(std::span<const Neighbour> all) {
 // Rows of (A^T W A)^-1 A^T W: A has the terms 1, x, y, x^2/2, xy, y^2/2 of each neighbour.
 StencilEntries stencil_at(const WeldedSurface& surface, uint32_t centre, const Neighbourhood& around) {
     const std::vector<Neighbour> neighbours = thinned(around.all);
-    const Vec3 origin = surface.positions[centre], n = surface.normals[centre];
-    const Vec3 x_axis = normalize(cross(std::abs(n.x) < 0.6f ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n));
-    const Vec3 y_axis = cross(n, x_axis);
-    double scale = 0;
-    for (const Neighbour& other : neighbours)
-        scale = std::max(scale, double(length(surface.positions[other.position] - origin)));
+    const FitFrame frame(surface, centre, neighbours, around.sigma_mm);
+    const double scale = frame.scale_mm;
     if (scale == 0) return {};
     const auto count = Eigen::Index(neighbours.size());
     Eigen::Matrix<double, Eigen::Dynamic, kStencilTerms> terms(count, kStencilTerms);
     Eigen::VectorXd weights(count);
     for (Eigen::Index i = 0; i < count; ++i) {
         const Neighbour& other = neighbours[size_t(i)];
-        const Vec3 p = surface.positions[other.position] - origin;
-        const double x = dot(p, x_axis) / scale, y = dot(p, y_axis) / scale;
-        const double t = other.distance_mm / (around.sigma_mm > 0 ? around.sigma_mm : 0.7 * scale);
+        const Vec3 p = surface.positions[other.position] - frame.origin;
+        const double x = dot(p, frame.x_axis) / scale, y = dot(p, frame.y_axis) / scale;
         terms.row(i) << 1, x, y, x * x / 2, x * y, y * y / 2;
-        weights[i] = std::exp(-t * t / 2) * (around.sigma_mm > 0 ? surface.areas[other.position] : 1);
+        weights[i] = frame.weight(surface, other);
     }
     const Eigen::Matrix<double, kStencilTerms, Eigen::Dynamic> weighted =
         terms.transpose() * weights.asDiagonal();

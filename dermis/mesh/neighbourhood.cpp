@@ -1,6 +1,7 @@
 #include "dermis/mesh/neighbourhood.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <queue>
 
@@ -40,6 +41,20 @@ WeldedSurface::WeldedSurface(const Mesh& mesh, const Weld& weld)
         for (size_t k = 0; k < 3; ++k) areas[corners[i + k]] += area;
     }
     add_edges(*this, corners);
+}
+
+FitFrame::FitFrame(const WeldedSurface& surface, uint32_t centre, std::span<const Neighbour> neighbours,
+                   double sigma)
+    : origin(surface.positions[centre]), n(surface.normals[centre]), sigma_mm(sigma) {
+    x_axis = normalize(cross(std::abs(n.x) < 0.6f ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n));
+    y_axis = cross(n, x_axis);
+    for (const Neighbour& other : neighbours)
+        scale_mm = std::max(scale_mm, double(length(surface.positions[other.position] - origin)));
+}
+
+double FitFrame::weight(const WeldedSurface& surface, const Neighbour& neighbour) const {
+    const double t = neighbour.distance_mm / (sigma_mm > 0 ? sigma_mm : 0.7 * scale_mm);
+    return std::exp(-t * t / 2) * (sigma_mm > 0 ? surface.areas[neighbour.position] : 1);
 }
 
 Neighbourhood NeighbourWalker::around(uint32_t centre, double smoothing_mm) {

@@ -27,10 +27,24 @@ struct Neighbour {
     float distance_mm;  ///< along edges
 };
 
-/// With the vertex itself; their Gaussian weights have this standard deviation, 0: in the fit's own scale.
+/// With the vertex itself.
 struct Neighbourhood {
     std::span<const Neighbour> all;
-    double sigma_mm;
+    double sigma_mm;  ///< standard deviation of their weights; 0: 0.7 of the farthest one's distance
+};
+
+/// What a fit over the tangent plane of a vertex needs.
+struct FitFrame {
+    Vec3 origin, x_axis, y_axis, n;
+    double scale_mm = 0;  ///< distance of the farthest neighbour: lengths over it give terms of like sizes
+    double sigma_mm = 0;
+
+    FitFrame(const WeldedSurface& surface, uint32_t centre, std::span<const Neighbour> neighbours,
+             double sigma_mm);
+    /// A Gaussian of the distance along edges, times the area that a neighbour stands for. Without a
+    /// `sigma_mm` of the neighbourhood the vertex itself counts most, so that the fit passes near it, and
+    /// areas do not count.
+    [[nodiscard]] double weight(const WeldedSurface& surface, const Neighbour& neighbour) const;
 };
 
 /// Walks outwards in order of distance. One per thread: its marks are reused.

@@ -172,6 +172,17 @@ TEST(GltfMorph, targets_count_by_the_weights_of_node_or_mesh) {
     EXPECT_EQ(load_gltf(builder.file(with_weights)).mesh.positions_mm[0].z, 500);
 }
 
+// Changes beyond the last vertex were written past the end.
+TEST(GltfMorph, a_target_of_more_vertices_is_refused) {
+    const GltfBuilder builder =
+        triangle().accessor<float>(5126, "VEC3", 5, {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1});
+    const std::string text = builder.file(R"({"attributes":{"POSITION":0},"targets":[{"POSITION":1}]})",
+                                          R"({"mesh":0,"weights":[0.5]})");
+    EXPECT_NE(features_error_of(text).find("targets[0].POSITION: has 5 elements for 3 positions"),
+              std::string::npos)
+        << features_error_of(text);
+}
+
 TEST(GltfUv, each_materials_set_and_transform_change_its_primitives_uvs) {
     // TEXCOORD_0: corners of the square; TEXCOORD_1: everything at (0.25, 0.75).
     const GltfBuilder builder =

@@ -156,16 +156,16 @@ bool all_finite(std::span<const float> values) {
     return std::ranges::all_of(values, [](float v) { return std::isfinite(v); });
 }
 
-// As many elements as there are positions; any number if `count` is 0.
+// As many elements as there are positions, or none and an error; any number if `count` is 0.
 std::vector<float> read_elements(Document& document, const JsonView& view, size_t components, size_t count) {
     if (!view.exists() || view.failed()) return {};
     const uint64_t accessor = view.integer(0);
     if (view.failed()) return {};
     std::vector<float> values = read_floats(document, accessor, components);
     const size_t found = values.size() / components;
-    if (count != 0 && found != count && !view.failed())
-        view.fail(fmt::format("has {} elements for {} positions", found, count));
-    return values;
+    if (count == 0 || found == count) return values;
+    if (!view.failed()) view.fail(fmt::format("has {} elements for {} positions", found, count));
+    return {};
 }
 
 class PrimitiveReader {
