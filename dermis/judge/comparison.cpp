@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "dermis/image/metrics.h"
 #include "dermis/judge/effect_reference.h"
@@ -178,7 +179,7 @@ Result<void> begin_references(ComparisonWork& work) {
         DERMIS_TRY_ASSIGN(
             EffectReferenceMaker begun,
             EffectReferenceMaker::begin(work.scene, reference_settings(work.settings, work.integrator(i)),
-                                        {.done = done, .refined = {}, .stop = work.hooks.stop}));
+                                        {.done = done, .stop = work.hooks.stop}));
         work.references.push_back(std::move(begun));
     }
     work.comparison.integrator = work.settings.reference.integrator;
@@ -201,7 +202,7 @@ Result<void> refine_references(ComparisonWork& work) {
             work.estimate.set_left(Part::references, begun_s - own_s + own_s * (1 - share));
             work.show(reference_name(work, i));
         };
-        DERMIS_TRY(next->refine({.done = done, .refined = {}, .stop = work.hooks.stop}));
+        DERMIS_TRY(next->refine({.done = done, .stop = work.hooks.stop}));
         report_shares(work, i);
     }
     return {};
@@ -429,7 +430,9 @@ Result<Comparison> compare_techniques(gpu::Device& device, Renderer& renderer, c
                                       const Scene& scene, const std::vector<Contestant>& contestants,
                                       const ComparisonSettings& settings, const ComparisonHooks& hooks) {
     DERMIS_TRY(check_comparison(scene, contestants, settings));
-    ComparisonWork work{scene, settings, hooks};
+    ComparisonSettings own = settings;
+    own.reference.tracing = std::make_shared<SharedTracing>();
+    ComparisonWork work{scene, own, hooks};
     work.comparison.device = device.info().name;
     guess_times(work, contestants.size());
     DERMIS_TRY(begin_references(work));

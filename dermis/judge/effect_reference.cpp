@@ -39,7 +39,7 @@ Result<std::string> state_hash(const Scene& scene, const ReferenceSettings& sett
 // The picture without scattering, for a half. It samples every cell of a pixel once; all cells together take
 // about kLightPoints points on the lights.
 Result<ReferencePicture> unscattered(const Scene& scene, const ReferenceSettings& effect, uint32_t half,
-                                     const ReferenceProgress& progress, const std::atomic<bool>* stop) {
+                                     const std::atomic<bool>* stop) {
     constexpr int kLightPoints = 144;
     const int cells = effect.grid * effect.grid;
     const ReferenceSettings settings{.integrator = Integrator::lambert,
@@ -51,8 +51,9 @@ Result<ReferencePicture> unscattered(const Scene& scene, const ReferenceSettings
                                      .cavities = effect.cavities,
                                      .filter = PixelFilter::grid,
                                      .grid = effect.grid,
-                                     .lighting = effect.lighting};
-    DERMIS_TRY_ASSIGN(CachedReference made, cached_reference(scene, settings, progress, stop));
+                                     .lighting = effect.lighting,
+                                     .tracing = effect.tracing};
+    DERMIS_TRY_ASSIGN(CachedReference made, cached_reference(scene, settings, {}, stop));
     return std::move(made.picture);
 }
 
@@ -121,9 +122,10 @@ struct EffectReferenceMaker::Work {
     const Scene& scene;
     EffectReferenceSettings settings;
     std::string hash;
-    Image shown;                           // the share of skin, beside cuts too
-    Image mask;                            // whole pixels of skin
-    std::optional<EffectSampler> sampler;  // made when samples are
+    Image shown;                                // the share of skin, beside cuts too
+    Image mask;                                 // whole pixels of skin
+    std::optional<EffectSampler> sampler;       // made when samples are
+    std::array<Image, 2> unscattered_radiance;  // of the halves; empty until they are needed
     // What is stored.
     int passes = 0;  // samples of a half, in the mean of the mask
     double time_ms = 0;
@@ -132,29 +134,37 @@ struct EffectReferenceMaker::Work {
     EffectReference reference;
 
     Work(const Scene& of, const EffectReferenceSettings& s)
-        : scene(of), settings(s), samples(s.reference.width, s.reference.height) {}
+        : scene(of),
+          settings(s),
+          shown(s.reference.width, s.reference.height, 1),
+          samples(s.reference.width, s.reference.height) {}
 
     [[nodiscard]] auto parts() {
-        return std::tie(passes, time_ms, samples.a.bytes, samples.b.bytes, samples.counts, samples.walks,
-                        samples.lost_walks, samples.cut_channels, weights);
+        return std::tie(passes, time_ms, shown.bytes, samples.a.bytes, samples.b.bytes, samples.counts,
+                        samples.walks, samples.lost_walks, samples.cut_channels, weights);
     }
     void load() {
         weights.resize(samples.counts.size());
         if (cache_load("effect", hash, parts())) return;
         passes = 0;
         time_ms = 0;
-        samples = EffectSamples(mask.width, mask.height);
+        samples = EffectSamples(shown.width, shown.height);
     }
 
-    [[nodiscard]] Result<void> find_skin(const EffectReferenceHooks& hooks) {
-        const auto done = [&](double share) {
-            if (hooks.done) hooks.done(0.5 * share, true);
-        };
-        DERMIS_TRY_ASSIGN(ReferencePicture none, unscattered(scene, settings.reference, 0, done, hooks.stop));
-        if (hooks.stop && hooks.stop->load()) return stopped_early();
-        shown = none.skin;
-        reference.skin = std::move(none.skin);
-        reference.halves[0] = std::move(none.radiance);
+    [[nodiscard]] Result<void> make_sampler() {
+        if (sampler) return {};
+        DERMIS_TRY_ASSIGN(EffectSampler made, EffectSampler::create(scene, settings.reference));
+        sampler.emplace(std::move(made));
+        return {};
+    }
+
+    // After load().
+    [[nodiscard]] Result<void> find_skin() {
+        if (passes == 0) {
+            DERMIS_TRY(make_sampler());
+            shown = sampler->skin();
+        }
+        reference.skin = shown;
         DERMIS_TRY_ASSIGN(const Image away, away_from_cuts(scene, shown.width, shown.height));
         for (size_t i = 0; i < away.pixel_count(); ++i) reference.skin.floats()[i] *= away.floats()[i];
         mask = whole_skin(reference.skin);
@@ -177,16 +187,13 @@ struct EffectReferenceMaker::Work {
     }
 
     [[nodiscard]] Result<void> raise_to(int mean, const EffectReferenceHooks& hooks) {
-        if (!sampler) {
-            DERMIS_TRY_ASSIGN(EffectSampler made, EffectSampler::create(scene, settings.reference));
-            sampler.emplace(std::move(made));
-        }
+        DERMIS_TRY(make_sampler());
         const auto start = std::chrono::steady_clock::now();
         const bool first = passes == 0;
         const double wanted = std::max(passes_wanted(), double(mean));
         const auto done = [&](double share) {
             if (!hooks.done) return;
-            hooks.done(first ? 0.5 + 0.5 * share : (passes + share * (mean - passes)) / wanted, first);
+            hooks.done(first ? share : (passes + share * (mean - passes)) / wanted, first);
         };
         const bool complete = sampler->raise(counts_of(mean), samples, done, hooks.stop);
         if (!complete && first) return stopped_early();
@@ -198,7 +205,21 @@ struct EffectReferenceMaker::Work {
         update();
         reference.from_cache = false;
         cache_store("effect", hash, parts());
-        if (hooks.refined) hooks.refined(reference);
+        return {};
+    }
+
+    // The pictures without scattering, unless stopped.
+    [[nodiscard]] Result<void> make_unscattered(const std::atomic<bool>* stop) {
+        for (uint32_t half = 0; half < 2; ++half) {
+            if (!unscattered_radiance[half].bytes.empty()) continue;
+            Result<ReferencePicture> made = unscattered(scene, settings.reference, half, stop);
+            if (stop && stop->load()) {
+                reference.stopped = true;
+                return {};
+            }
+            if (!made) return made.error();
+            unscattered_radiance[half] = std::move(made->radiance);
+        }
         return {};
     }
 
@@ -242,8 +263,8 @@ Result<EffectReferenceMaker> EffectReferenceMaker::begin(const Scene& scene,
     work->settings.reference.filter = PixelFilter::grid;
     work->settings.reference.noise = {};
     DERMIS_TRY_ASSIGN(work->hash, state_hash(scene, work->settings.reference));
-    DERMIS_TRY(work->find_skin(hooks));
     work->load();
+    DERMIS_TRY(work->find_skin());
     work->reference.from_cache = true;
     DERMIS_TRY_ASSIGN(work->reference.warnings, walk_notes(scene, work->settings.reference));
     work->update();
@@ -256,6 +277,8 @@ bool EffectReferenceMaker::is_done() const {
 }
 
 Result<void> EffectReferenceMaker::refine(const EffectReferenceHooks& hooks) {
+    DERMIS_TRY(work_->make_unscattered(hooks.stop));
+    if (work_->reference.stopped) return {};
     return work_->raise_to(work_->next_passes(), hooks);
 }
 
@@ -276,12 +299,11 @@ double EffectReferenceMaker::left_ms() const {
 
 Result<EffectReference> EffectReferenceMaker::finish() {
     Work& work = *work_;
-    DERMIS_TRY_ASSIGN(ReferencePicture none,
-                      unscattered(work.scene, work.settings.reference, 1, {}, nullptr));
     EffectReference made = work.reference;
+    DERMIS_TRY(work.make_unscattered(nullptr));
+    made.halves = work.unscattered_radiance;
     made.reached = work.is_fine_enough();
     made.stopped = !is_done() || made.stopped;
-    made.halves[1] = std::move(none.radiance);
     for (size_t half = 0; half < 2; ++half) {
         const Image& effect = half == 0 ? made.effect.a : made.effect.b;
         for (size_t i = 0; i < effect.pixel_count(); ++i)

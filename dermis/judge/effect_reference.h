@@ -42,8 +42,6 @@ struct EffectReferenceHooks {
     /// How much is done, 0 to 1: of the first samples, whose noise says how many are needed, and then of all.
     /// The second never falls by more than the estimate of all grows.
     std::function<void(double done, bool first_samples)> done;
-    /// After each batch of samples, with the reference so far, whose halves are empty.
-    std::function<void(const EffectReference&)> refined;
     const std::atomic<bool>* stop = nullptr;
 };
 
@@ -66,7 +64,8 @@ class EffectReferenceMaker {
 
     /// Fine enough, at the limit of samples, or stopped.
     [[nodiscard]] bool is_done() const;
-    /// Half as many samples again as it has, or as many as it lacks.
+    /// Half as many samples again as it has, or as many as it lacks; the first time the pictures without
+    /// scattering too.
     [[nodiscard]] Result<void> refine(const EffectReferenceHooks& hooks = {});
     /// The halves are empty.
     [[nodiscard]] const EffectReference& so_far() const;

@@ -55,6 +55,21 @@ Result<EffectSampler> EffectSampler::create(const Scene& scene, const ReferenceS
     return EffectSampler(std::move(sampler), own);
 }
 
+Image EffectSampler::skin() const {
+    Image skin(settings_.width, settings_.height, 1);
+    const auto width = size_t(skin.width);
+    const auto cells = uint32_t(settings_.grid * settings_.grid);
+    parallel_for(size_t(skin.height), 1, [&](size_t begin, size_t end) {
+        for (size_t i = begin * width; i < end * width; ++i) {
+            double sum = 0;
+            for (uint32_t cell = 0; cell < cells; ++cell)
+                sum += double(sampler_->skin(settings_.seed, int(i % width), int(i / width), cell));
+            skin.floats()[i] = float(sum / cells);
+        }
+    });
+    return skin;
+}
+
 bool EffectSampler::raise(std::span<const uint32_t> counts, EffectSamples& samples,
                           const ReferenceProgress& progress, const std::atomic<bool>* stop) const {
     uint64_t all = 0;

@@ -36,6 +36,9 @@ class EffectSampler {
     EffectSampler(EffectSampler&&) noexcept;
     EffectSampler& operator=(EffectSampler&&) = delete;
 
+    /// The share of each pixel that is skin, seen through nothing: over the middles of all its cells.
+    [[nodiscard]] Image skin() const;
+
     /// Adds samples until a pixel's half has as many as `counts` says; one that has more keeps them. Sample i
     /// of a pixel is the same however they are added. False when stopped: rows in work are complete.
     /// `progress` is called on this thread.

@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +35,21 @@ enum class PixelFilter { box, center, grid };
 /// return what `lambert` returns, at any eta and angle. Paths inside are reflected by Fresnel in both.
 enum class LightEntry { fresnel, all };
 
+struct ReferenceSettings;
+struct TracedScene;
+
+/// The rays, maps and lights of one scene, kept for the references that follow the first. Not for several
+/// threads.
+class SharedTracing {
+  public:
+    /// Loads them where the kept ones are for other cavities or lights. Errors: maps, the ray library.
+    [[nodiscard]] Result<std::shared_ptr<const TracedScene>> of(const Scene& scene,
+                                                                const ReferenceSettings& settings);
+
+  private:
+    std::shared_ptr<const TracedScene> kept_;
+};
+
 struct ReferenceSettings {
     Integrator integrator = Integrator::surface;
     int width = 512, height = 512;  ///< 1..16384
@@ -50,6 +66,8 @@ struct ReferenceSettings {
     LightingSettings lighting;               ///< entry_eta is set from medium and `entry`
     LightEntry entry = LightEntry::fresnel;  ///< walk
     std::optional<ScatteringMedium> medium;  ///< walk: else walk_medium_of the scene's profile
+    std::shared_ptr<SharedTracing> tracing =
+        {};  ///< of this scene; null: it is loaded for this reference alone
 };
 
 /// The picture so far, linear f32. The error of a pixel is the standard error of its mean luminance

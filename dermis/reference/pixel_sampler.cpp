@@ -35,6 +35,11 @@ LightingSettings without_entry(LightingSettings settings) {
     return settings;
 }
 
+// As the renderer has them.
+bool approximates_reflections_by(const LightingSettings& lighting) {
+    return lighting.ambient == AmbientModel::renderer && lighting.specular != SpecularReflection::none;
+}
+
 // Steps of the golden ratio through the cells, row by row, so that few samples lie apart (Weyl 1916). Without
 // a common divisor every cell is met once.
 uint32_t golden_step(int grid) {
@@ -81,20 +86,52 @@ Result<std::vector<ScatteringMedium>> media_of(const ReferenceSettings& settings
 
 }  // namespace
 
-PixelSampler::PixelSampler(const Scene& scene, const ReferenceSettings& settings, RayScene rays,
-                           MaterialSet materials, EnvironmentSampler environment,
-                           SplitSumReflection reflection, std::optional<BrdfTable> brdf,
-                           const LightingSettings& lighting, Measure measure)
+Result<std::shared_ptr<const TracedScene>> TracedScene::load(const Scene& scene,
+                                                             const ReferenceSettings& settings) {
+    const bool approximates = approximates_reflections_by(settings.lighting);
+    DERMIS_TRY_ASSIGN(std::vector<Flesh> flesh, find_flesh(scene.objects, settings.cavities));
+    DERMIS_TRY_ASSIGN(RayScene rays, RayScene::build(scene.objects, flesh));
+    DERMIS_TRY_ASSIGN(MaterialSet materials, MaterialSet::load(scene));
+    DERMIS_TRY_ASSIGN(EnvironmentSampler environment, EnvironmentSampler::load(scene.environment));
+    DERMIS_TRY_ASSIGN(SplitSumReflection reflection,
+                      SplitSumReflection::load(approximates ? scene.environment
+                                                            : Environment{.kind = EnvironmentKind::none}));
+    std::optional<BrdfTable> brdf;
+    if (scene.skin.specular_reduces_diffuse) {
+        DERMIS_TRY_ASSIGN(BrdfTable loaded, BrdfTable::load());
+        brdf = std::move(loaded);
+    }
+    return std::make_shared<const TracedScene>(TracedScene{.cavities = settings.cavities,
+                                                           .approximates_reflections = approximates,
+                                                           .rays = std::move(rays),
+                                                           .materials = std::move(materials),
+                                                           .environment = std::move(environment),
+                                                           .reflection = std::move(reflection),
+                                                           .brdf = std::move(brdf)});
+}
+
+Result<std::shared_ptr<const TracedScene>> SharedTracing::of(const Scene& scene,
+                                                             const ReferenceSettings& settings) {
+    if (!kept_ || kept_->cavities != settings.cavities ||
+        kept_->approximates_reflections != approximates_reflections_by(settings.lighting)) {
+        DERMIS_TRY_ASSIGN(kept_, TracedScene::load(scene, settings));
+    }
+    return kept_;
+}
+
+PixelSampler::PixelSampler(const Scene& scene, const ReferenceSettings& settings,
+                           std::shared_ptr<const TracedScene> traced, const LightingSettings& lighting,
+                           Measure measure)
     : scene_(scene),
       settings_(settings),
-      rays_(std::move(rays)),
-      materials_(std::move(materials)),
-      environment_(std::move(environment)),
-      reflection_(std::move(reflection)),
-      brdf_(std::move(brdf)),
-      lighting_(scene_, rays_, materials_, environment_, lighting, &reflection_, brdf_ ? &*brdf_ : nullptr),
-      unscattered_lighting_(scene_, rays_, materials_, environment_, without_entry(lighting), &reflection_,
-                            brdf_ ? &*brdf_ : nullptr),
+      traced_(std::move(traced)),
+      rays_(traced_->rays),
+      materials_(traced_->materials),
+      environment_(traced_->environment),
+      lighting_(scene_, rays_, materials_, environment_, lighting, &traced_->reflection,
+                traced_->brdf ? &*traced_->brdf : nullptr),
+      unscattered_lighting_(scene_, rays_, materials_, environment_, without_entry(lighting),
+                            &traced_->reflection, traced_->brdf ? &*traced_->brdf : nullptr),
       measure_(measure),
       cell_step_(golden_step(settings.grid)) {
     const float aspect = float(settings.width) / float(settings.height);
@@ -121,22 +158,13 @@ void PixelSampler::use_medium(const ScatteringMedium& medium) {
 Result<std::unique_ptr<PixelSampler>> PixelSampler::create(const Scene& scene,
                                                            const ReferenceSettings& settings,
                                                            Measure measure) {
-    DERMIS_TRY_ASSIGN(std::vector<Flesh> flesh, find_flesh(scene.objects, settings.cavities));
-    DERMIS_TRY_ASSIGN(RayScene rays, RayScene::build(scene.objects, flesh));
-    DERMIS_TRY_ASSIGN(MaterialSet materials, MaterialSet::load(scene));
-    Result<EnvironmentSampler> environment = EnvironmentSampler::load(scene.environment);
-    if (!environment) return environment.error();
-    LightingSettings lighting = settings.lighting;
-    const bool approximate =
-        lighting.ambient == AmbientModel::renderer && lighting.specular != SpecularReflection::none;
-    DERMIS_TRY_ASSIGN(SplitSumReflection reflection,
-                      SplitSumReflection::load(approximate ? scene.environment
-                                                           : Environment{.kind = EnvironmentKind::none}));
-    std::optional<BrdfTable> brdf;
-    if (scene.skin.specular_reduces_diffuse) {
-        DERMIS_TRY_ASSIGN(BrdfTable loaded, BrdfTable::load());
-        brdf = std::move(loaded);
+    std::shared_ptr<const TracedScene> traced;
+    if (settings.tracing) {
+        DERMIS_TRY_ASSIGN(traced, settings.tracing->of(scene, settings));
+    } else {
+        DERMIS_TRY_ASSIGN(traced, TracedScene::load(scene, settings));
     }
+    LightingSettings lighting = settings.lighting;
     const bool walks = settings.integrator == Integrator::walk && settings.width_scale > 0;
     const std::vector<std::string> profiles = skin_profiles(scene);
     std::vector<ScatteringMedium> media;
@@ -145,8 +173,7 @@ Result<std::unique_ptr<PixelSampler>> PixelSampler::create(const Scene& scene,
         lighting.entry_eta = settings.entry == LightEntry::fresnel ? media.front().eta : 1;
     }
     std::unique_ptr<PixelSampler> sampler(
-        new PixelSampler(scene, settings, std::move(rays), std::move(materials), std::move(*environment),
-                         std::move(reflection), std::move(brdf), lighting, measure));
+        new PixelSampler(scene, settings, std::move(traced), lighting, measure));
     if (media.size() != 1) sampler->profiles_ = profiles;
     for (const ScatteringMedium& medium : media)
         if (walks) sampler->use_medium(medium);
@@ -255,14 +282,16 @@ float PixelSampler::opacity_at(const RayHit& hit) const {
 
 // Translucent surfaces lie over what is behind them by their opacity, front to back. Returns what is left of
 // `through`.
-float PixelSampler::add_translucent(Seen seen, float through, uint32_t& seed, PixelSample& sample) const {
+template <class Shade>
+float PixelSampler::add_translucent(Seen seen, float through, uint32_t& seed, PixelSample& sample,
+                                    const Shade& shade) const {
     for (int layer = 0; layer < kMostLayers && rays_.has(RaySet::translucent); ++layer) {
         const std::optional<RayHit> glass = rays_.closest_hit(RaySet::translucent, seen.ray);
         if (!glass) break;
         seen.hit = *glass;
         const SurfaceAttributes surface = rays_.surface_at(seen.hit);
         const float opacity = scene_.objects[glass->object].mesh.materials[surface.material].opacity;
-        add_surface(seen, Vec3{1, 1, 1} * through, seed = hash_u32(seed), sample);
+        shade(seen, through, seed = hash_u32(seed), sample);
         sample.coverage += through * opacity;
         through *= 1 - opacity;
         seen.ray.min_mm = glass->distance_mm + 4 * rays_.epsilon_mm();
@@ -270,7 +299,8 @@ float PixelSampler::add_translucent(Seen seen, float through, uint32_t& seed, Pi
     return through;
 }
 
-PixelSample PixelSampler::sample(uint32_t of_seed, int x, int y, uint32_t index) const {
+template <class Shade>
+PixelSample PixelSampler::trace(uint32_t of_seed, int x, int y, uint32_t index, const Shade& shade) const {
     const uint32_t pixel = hash_u32(of_seed, uint32_t(x), uint32_t(y));
     const Vec2 within = place_in_pixel(pixel, index);
     Ray ray = camera_ray(x, y, within);
@@ -282,12 +312,11 @@ PixelSample PixelSampler::sample(uint32_t of_seed, int x, int y, uint32_t index)
     for (int layer = 1; layer <= kMostLayers; ++layer) {
         const std::optional<RayHit> solid = rays_.closest_hit(RaySet::opaque, ray);
         if (solid) ray.max_mm = solid->distance_mm;
-        through = add_translucent({{}, ray, x, y, within, pixel, index}, through, seed, result);
+        through = add_translucent({{}, ray, x, y, within, pixel, index}, through, seed, result, shade);
         if (!solid) break;
         const float opacity = layer < kMostLayers ? opacity_at(*solid) : 1;
-        const MaterialClass seen =
-            add_surface({*solid, ray, x, y, within, pixel, index}, Vec3{1, 1, 1} * (through * opacity),
-                        seed = hash_u32(seed), result);
+        const MaterialClass seen = shade({*solid, ray, x, y, within, pixel, index}, through * opacity,
+                                         seed = hash_u32(seed), result);
         result.coverage += through * opacity;
         if (seen == MaterialClass::skin) result.skin = through;
         if (opacity == 1) return result;
@@ -298,6 +327,21 @@ PixelSample PixelSampler::sample(uint32_t of_seed, int x, int y, uint32_t index)
     const bool shown = scene_.environment.visible && !environment_.dark();
     result.background = (shown ? environment_.radiance(ray.direction) : scene_.background_linear) * through;
     return result;
+}
+
+PixelSample PixelSampler::sample(uint32_t of_seed, int x, int y, uint32_t index) const {
+    return trace(of_seed, x, y, index,
+                 [this](const Seen& seen, float weight, uint32_t seed, PixelSample& result) {
+                     return add_surface(seen, Vec3{1, 1, 1} * weight, seed, result);
+                 });
+}
+
+float PixelSampler::skin(uint32_t of_seed, int x, int y, uint32_t index) const {
+    const auto class_of = [this](const Seen& seen, float, uint32_t, PixelSample&) {
+        const SceneObject& object = scene_.objects[seen.hit.object];
+        return object.classes[material_of_triangle(object.mesh, seen.hit.triangle)];
+    };
+    return trace(of_seed, x, y, index, class_of).skin;
 }
 
 }  // namespace dermis::inline reference

@@ -2,6 +2,7 @@
 // One sample of one pixel: the path from the eye to what it sees. Internal to dermis/reference.
 
 #include <atomic>
+#include <memory>
 
 #include "dermis/reference/picture.h"
 #include "dermis/reference/walk_integrator.h"
@@ -15,6 +16,20 @@ struct PixelSample {
     float skin = 0;  ///< share of what is seen that is skin
     int walks = 0, lost_walks = 0;
     [[nodiscard]] Vec3 radiance() const { return diffuse + specular + background; }
+};
+
+/// What references of a scene have in common.
+struct TracedScene {
+    Cavities cavities = Cavities::flesh;
+    bool approximates_reflections = false;
+    RayScene rays;
+    MaterialSet materials;
+    EnvironmentSampler environment;
+    SplitSumReflection reflection;
+    std::optional<BrdfTable> brdf;
+
+    [[nodiscard]] static Result<std::shared_ptr<const TracedScene>> load(const Scene& scene,
+                                                                         const ReferenceSettings& settings);
 };
 
 /// What samples are for. effect: PixelSample::scattered too, which may take more shadow rays.
@@ -31,18 +46,22 @@ class PixelSampler {
     /// number of samples has the expected mean of all cells, and each run of grid^2 from a multiple of it has
     /// each cell once.
     [[nodiscard]] PixelSample sample(uint32_t seed, int x, int y, uint32_t index) const;
+    /// Of the same place, PixelSample::skin alone; takes no light.
+    [[nodiscard]] float skin(uint32_t seed, int x, int y, uint32_t index) const;
     /// By the seed of the settings.
     [[nodiscard]] PixelSample sample(int x, int y, uint32_t index) const {
         return sample(settings_.seed, x, y, index);
     }
 
   private:
-    PixelSampler(const Scene& scene, const ReferenceSettings& settings, RayScene rays, MaterialSet materials,
-                 EnvironmentSampler environment, SplitSumReflection reflection, std::optional<BrdfTable> brdf,
-                 const LightingSettings& lighting, Measure measure);
+    PixelSampler(const Scene& scene, const ReferenceSettings& settings,
+                 std::shared_ptr<const TracedScene> traced, const LightingSettings& lighting,
+                 Measure measure);
     void use_profile(const Profile& profile);
     void use_medium(const ScatteringMedium& medium);
 
+    template <class Shade>
+    [[nodiscard]] PixelSample trace(uint32_t of_seed, int x, int y, uint32_t index, const Shade& shade) const;
     [[nodiscard]] Vec2 place_in_pixel(uint32_t pixel, uint32_t index) const;
     [[nodiscard]] Ray camera_ray(int x, int y, Vec2 within) const;
     /// A surface with the ray that sees it, the pixel it is seen in and where in the pixel, by which sample.
@@ -56,7 +75,9 @@ class PixelSampler {
     [[nodiscard]] UvFootprint footprint(const Seen& seen, Vec3 p_mm) const;
     /// Opacity of a hit on an opaque or blended surface.
     [[nodiscard]] float opacity_at(const RayHit& hit) const;
-    [[nodiscard]] float add_translucent(Seen seen, float through, uint32_t& seed, PixelSample& sample) const;
+    template <class Shade>
+    [[nodiscard]] float add_translucent(Seen seen, float through, uint32_t& seed, PixelSample& sample,
+                                        const Shade& shade) const;
     MaterialClass add_surface(const Seen& seen, Vec3 weight, uint32_t seed, PixelSample& sample) const;
     /// Where the environment is traced, a point's light has more noise than its walks.
     [[nodiscard]] bool subtracts_flat() const {
@@ -74,11 +95,10 @@ class PixelSampler {
 
     const Scene& scene_;
     ReferenceSettings settings_;
-    RayScene rays_;
-    MaterialSet materials_;
-    EnvironmentSampler environment_;
-    SplitSumReflection reflection_;
-    std::optional<BrdfTable> brdf_;
+    std::shared_ptr<const TracedScene> traced_;
+    const RayScene& rays_;
+    const MaterialSet& materials_;
+    const EnvironmentSampler& environment_;
     Lighting lighting_;
     Lighting unscattered_lighting_;  ///< of `lambert`: nothing is reflected where light enters the medium
     Measure measure_;

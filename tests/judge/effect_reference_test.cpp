@@ -121,11 +121,8 @@ TEST_P(EarlyShares, a_reference_that_is_stopped_goes_on_to_the_same_end) {
     const TemporaryDirectory other;
     ::setenv("DERMIS_CACHE", other.path.c_str(), 1);
     std::atomic<bool> stop = false;
-    int batches = 0;
     const EffectReferenceHooks hooks{
-        .done = [&](double, bool first) { stop = stop || (!first && batches > 1); },
-        .refined = [&](const EffectReference&) { ++batches; },
-        .stop = &stop};
+        .done = [&](double done, bool first) { stop = stop || (!first && done > 0.4); }, .stop = &stop};
     const auto stopped = make_effect_reference(scene, settings_of(5, 40), hooks);
     ASSERT_TRUE(stopped) << stopped.error().message;
     EXPECT_TRUE(stopped->stopped);
