@@ -188,14 +188,14 @@ Result<void> begin_references(ComparisonWork& work) {
     return {};
 }
 
-// The one that is farthest from what it must be comes first.
-Result<void> refine_references(ComparisonWork& work) {
+// The one that is farthest from what it must be comes first. It ends at this noise, over the effect.
+Result<void> refine_references(ComparisonWork& work, double noise) {
     const auto noisier = [&](const EffectReferenceMaker& a, const EffectReferenceMaker& b) {
         return (a.is_done() ? 0 : a.noise_over_wanted()) < (b.is_done() ? 0 : b.noise_over_wanted());
     };
     while (!work.stopped()) {
         const auto next = std::ranges::max_element(work.references, noisier);
-        if (next->is_done()) break;
+        if (next->is_done() || next->noise_over_wanted() * work.settings.noise <= noise) break;
         const auto i = size_t(next - work.references.begin());
         const double begun_s = work.references_left_s(), own_s = next->left_ms() / 1000;
         const auto done = [&](double share, bool) {
@@ -437,9 +437,14 @@ Result<Comparison> compare_techniques(gpu::Device& device, Renderer& renderer, c
     guess_times(work, contestants.size());
     DERMIS_TRY(begin_references(work));
     DERMIS_TRY(draw_techniques(device, renderer, catalog, contestants, work));
+    // Useful shares before what says nothing of them.
+    constexpr double kFirstNoise = 0.5;
+    DERMIS_TRY(refine_references(work, std::max(kFirstNoise, settings.noise)));
     DERMIS_TRY(time_techniques(renderer, contestants, work));
     for (const std::string& warning : renderer.warnings()) work.comparison.warnings.push_back(warning);
-    DERMIS_TRY(refine_references(work));
+    for (EffectReferenceMaker& reference : work.references)
+        DERMIS_TRY(reference.make_unscattered(hooks.stop));
+    DERMIS_TRY(refine_references(work, settings.noise));
     if (work.cancelled()) return Error{"stopped"};
     DERMIS_TRY(judge_all(work));
     return std::move(work.comparison);

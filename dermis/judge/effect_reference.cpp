@@ -277,9 +277,11 @@ bool EffectReferenceMaker::is_done() const {
 }
 
 Result<void> EffectReferenceMaker::refine(const EffectReferenceHooks& hooks) {
-    DERMIS_TRY(work_->make_unscattered(hooks.stop));
-    if (work_->reference.stopped) return {};
     return work_->raise_to(work_->next_passes(), hooks);
+}
+
+Result<void> EffectReferenceMaker::make_unscattered(const std::atomic<bool>* stop) {
+    return work_->make_unscattered(stop);
 }
 
 const EffectReference& EffectReferenceMaker::so_far() const {

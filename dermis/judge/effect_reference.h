@@ -64,9 +64,10 @@ class EffectReferenceMaker {
 
     /// Fine enough, at the limit of samples, or stopped.
     [[nodiscard]] bool is_done() const;
-    /// Half as many samples again as it has, or as many as it lacks; the first time the pictures without
-    /// scattering too.
+    /// Half as many samples again as it has, or as many as it lacks.
     [[nodiscard]] Result<void> refine(const EffectReferenceHooks& hooks = {});
+    /// The pictures without scattering, which finish() makes if they are missing then.
+    [[nodiscard]] Result<void> make_unscattered(const std::atomic<bool>* stop);
     /// The halves are empty.
     [[nodiscard]] const EffectReference& so_far() const;
     /// Noise over the noise that was asked for.
