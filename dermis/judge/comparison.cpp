@@ -137,15 +137,16 @@ using Part = WorkEstimate::Part;
 // short, as the share that is done never falls.
 void guess_times(ComparisonWork& work, size_t contestants) {
     constexpr double kFirstS = 3, kReferenceS = 15, kFrameS = 0.2, kPicturePointsPerS = 2e5,
-                     kJudgedPixelsPerS = 2e5;
+                     kUnscatteredPixelsPerS = 1e4, kJudgedPixelsPerS = 2e5;
     const ComparisonSettings& s = work.settings;
     const double pixels = double(s.width) * s.height, points = pixels * s.grid * s.grid,
                  rows = double(contestants * (1 + s.rest_bakes.size())), references = s.second ? 2 : 1;
-    work.estimate.expect(Part::first_samples, references * kFirstS);
-    work.estimate.expect(Part::pictures, rows * points / kPicturePointsPerS);
-    work.estimate.expect(Part::frames, double(contestants) * (s.frames > 0 ? s.frames + 1 : 0) * kFrameS);
-    work.estimate.expect(Part::references, references * kReferenceS);
-    work.estimate.expect(Part::judging, rows * pixels / kJudgedPixelsPerS);
+    work.estimate.set_left(Part::first_samples, references * kFirstS);
+    work.estimate.set_left(Part::pictures, rows * points / kPicturePointsPerS);
+    work.estimate.set_left(Part::frames, double(contestants) * (s.frames > 0 ? s.frames + 1 : 0) * kFrameS);
+    work.estimate.set_left(Part::unscattered, pixels / kUnscatteredPixelsPerS);
+    work.estimate.set_left(Part::references, references * kReferenceS);
+    work.estimate.set_left(Part::judging, rows * pixels / kJudgedPixelsPerS);
 }
 
 // The shares of all rows, of a reference so far.
@@ -184,11 +185,11 @@ Result<void> begin_references(ComparisonWork& work) {
     }
     work.comparison.integrator = work.settings.reference.integrator;
     work.comparison.second_integrator = work.settings.second;
-    work.estimate.expect(Part::references, work.references_left_s());
+    work.estimate.set_left(Part::references, work.references_left_s());
     return {};
 }
 
-// The one that is farthest from what it must be comes first. It ends at this noise, over the effect.
+// Refines the one that is farthest from what it must be, until all have this noise over the effect or less.
 Result<void> refine_references(ComparisonWork& work, double noise) {
     const auto noisier = [&](const EffectReferenceMaker& a, const EffectReferenceMaker& b) {
         return (a.is_done() ? 0 : a.noise_over_wanted()) < (b.is_done() ? 0 : b.noise_over_wanted());
@@ -208,7 +209,21 @@ Result<void> refine_references(ComparisonWork& work, double noise) {
     return {};
 }
 
+// All references share these pictures: the second finds them in the cache.
+Result<void> make_unscattered(ComparisonWork& work, const std::atomic<bool>* stop) {
+    for (EffectReferenceMaker& reference : work.references) {
+        const auto done = [&](double share) {
+            work.estimate.advance(Part::unscattered, share);
+            work.show("pictures without scattering");
+        };
+        DERMIS_TRY(reference.make_unscattered(done, stop));
+    }
+    work.estimate.set_left(Part::unscattered, 0);
+    return {};
+}
+
 Result<void> finish_references(ComparisonWork& work) {
+    DERMIS_TRY(make_unscattered(work, nullptr));
     work.estimate.advance(Part::judging, 0);
     DERMIS_TRY_ASSIGN(work.comparison.reference, work.references[0].finish());
     if (work.references.size() > 1) {
@@ -357,6 +372,7 @@ Result<void> draw_techniques(gpu::Device& device, Renderer& renderer, const Cata
     if (settings.exact) DERMIS_TRY(add_exact(maker, *baseline, work.scene, settings, comparison));
     DERMIS_TRY_ASSIGN(comparison.masks, maker.masks(work.references[0].so_far().skin));
     DERMIS_TRY(add_pictures(maker, *baseline, settings, comparison));
+    work.estimate.advance(Part::pictures, 1);
     for (size_t i = 0; i < work.references.size(); ++i) report_shares(work, i);
     return {};
 }
@@ -373,6 +389,7 @@ Result<void> time_techniques(Renderer& renderer, const std::vector<Contestant>& 
                       measure_costs(renderer, work.scene, contestants, settings.width, settings.height,
                                     settings.frames, show, work.hooks.stop));
     for (size_t i = 0; i < costs.size(); ++i) work.comparison.rows[i].cost = costs[i];
+    work.estimate.set_left(Part::frames, 0);
     return {};
 }
 
@@ -442,8 +459,7 @@ Result<Comparison> compare_techniques(gpu::Device& device, Renderer& renderer, c
     DERMIS_TRY(refine_references(work, std::max(kFirstNoise, settings.noise)));
     DERMIS_TRY(time_techniques(renderer, contestants, work));
     for (const std::string& warning : renderer.warnings()) work.comparison.warnings.push_back(warning);
-    for (EffectReferenceMaker& reference : work.references)
-        DERMIS_TRY(reference.make_unscattered(hooks.stop));
+    DERMIS_TRY(make_unscattered(work, hooks.stop));
     DERMIS_TRY(refine_references(work, settings.noise));
     if (work.cancelled()) return Error{"stopped"};
     DERMIS_TRY(judge_all(work));

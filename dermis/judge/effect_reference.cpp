@@ -39,7 +39,7 @@ Result<std::string> state_hash(const Scene& scene, const ReferenceSettings& sett
 // The picture without scattering, for a half. It samples every cell of a pixel once; all cells together take
 // about kLightPoints points on the lights.
 Result<ReferencePicture> unscattered(const Scene& scene, const ReferenceSettings& effect, uint32_t half,
-                                     const std::atomic<bool>* stop) {
+                                     const ReferenceProgress& progress, const std::atomic<bool>* stop) {
     constexpr int kLightPoints = 144;
     const int cells = effect.grid * effect.grid;
     const ReferenceSettings settings{.integrator = Integrator::lambert,
@@ -53,12 +53,12 @@ Result<ReferencePicture> unscattered(const Scene& scene, const ReferenceSettings
                                      .grid = effect.grid,
                                      .lighting = effect.lighting,
                                      .tracing = effect.tracing};
-    DERMIS_TRY_ASSIGN(CachedReference made, cached_reference(scene, settings, {}, stop));
+    DERMIS_TRY_ASSIGN(CachedReference made, cached_reference(scene, settings, progress, stop));
     return std::move(made.picture);
 }
 
 Error stopped_early() {
-    return Error{"stopped before every pixel had a sample: there is no picture yet"};
+    return Error{"stopped too early: some pixels have no sample yet, so nothing can be shown"};
 }
 
 Image whole_skin(const Image& skin) {
@@ -125,7 +125,7 @@ struct EffectReferenceMaker::Work {
     Image shown;                                // the share of skin, beside cuts too
     Image mask;                                 // whole pixels of skin
     std::optional<EffectSampler> sampler;       // made when samples are
-    std::array<Image, 2> unscattered_radiance;  // of the halves; empty until they are needed
+    std::array<Image, 2> unscattered_radiance;  // one a half; empty until make_unscattered()
     // What is stored.
     int passes = 0;  // samples of a half, in the mean of the mask
     double time_ms = 0;
@@ -209,10 +209,14 @@ struct EffectReferenceMaker::Work {
     }
 
     // The pictures without scattering, unless stopped.
-    [[nodiscard]] Result<void> make_unscattered(const std::atomic<bool>* stop) {
+    [[nodiscard]] Result<void> make_unscattered(const ReferenceProgress& progress,
+                                                const std::atomic<bool>* stop) {
         for (uint32_t half = 0; half < 2; ++half) {
             if (!unscattered_radiance[half].bytes.empty()) continue;
-            Result<ReferencePicture> made = unscattered(scene, settings.reference, half, stop);
+            const auto done = [&](double share) {
+                if (progress) progress((half + share) / 2);
+            };
+            Result<ReferencePicture> made = unscattered(scene, settings.reference, half, done, stop);
             if (stop && stop->load()) {
                 reference.stopped = true;
                 return {};
@@ -280,8 +284,9 @@ Result<void> EffectReferenceMaker::refine(const EffectReferenceHooks& hooks) {
     return work_->raise_to(work_->next_passes(), hooks);
 }
 
-Result<void> EffectReferenceMaker::make_unscattered(const std::atomic<bool>* stop) {
-    return work_->make_unscattered(stop);
+Result<void> EffectReferenceMaker::make_unscattered(const ReferenceProgress& progress,
+                                                    const std::atomic<bool>* stop) {
+    return work_->make_unscattered(progress, stop);
 }
 
 const EffectReference& EffectReferenceMaker::so_far() const {
@@ -302,7 +307,7 @@ double EffectReferenceMaker::left_ms() const {
 Result<EffectReference> EffectReferenceMaker::finish() {
     Work& work = *work_;
     EffectReference made = work.reference;
-    DERMIS_TRY(work.make_unscattered(nullptr));
+    DERMIS_TRY(work.make_unscattered({}, nullptr));
     made.halves = work.unscattered_radiance;
     made.reached = work.is_fine_enough();
     made.stopped = !is_done() || made.stopped;

@@ -66,8 +66,10 @@ class EffectReferenceMaker {
     [[nodiscard]] bool is_done() const;
     /// Half as many samples again as it has, or as many as it lacks.
     [[nodiscard]] Result<void> refine(const EffectReferenceHooks& hooks = {});
-    /// The pictures without scattering, which finish() makes if they are missing then.
-    [[nodiscard]] Result<void> make_unscattered(const std::atomic<bool>* stop);
+    /// Makes the pictures without scattering, which finish() adds the effect to. finish() calls it too; this
+    /// call can show progress and be stopped.
+    [[nodiscard]] Result<void> make_unscattered(const ReferenceProgress& progress,
+                                                const std::atomic<bool>* stop);
     /// The halves are empty.
     [[nodiscard]] const EffectReference& so_far() const;
     /// Noise over the noise that was asked for.

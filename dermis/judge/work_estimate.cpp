@@ -26,11 +26,6 @@ void WorkEstimate::advance(Part part, double done) {
     if (done >= kTrusted) left_s_[size_t(part)] = seconds_since(part_start_) * (1 - done) / done;
 }
 
-void WorkEstimate::set_left(Part part, double left_s) {
-    begin(part);
-    left_s_[size_t(part)] = left_s;
-}
-
 double WorkEstimate::done() {
     const double left_s = std::accumulate(left_s_.begin(), left_s_.end(), 0.0),
                  past_s = seconds_since(start_);

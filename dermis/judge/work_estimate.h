@@ -9,15 +9,13 @@ namespace dermis::inline judge {
 
 class WorkEstimate {
   public:
-    /// In their order. pictures: of techniques; frames: timed ones.
-    enum class Part { first_samples, pictures, frames, references, judging };
+    /// pictures: of techniques; frames: timed ones; unscattered: the pictures without scattering.
+    enum class Part { first_samples, pictures, frames, unscattered, references, judging };
 
-    /// The guess of a part that has not begun.
-    void expect(Part part, double left_s) { left_s_[size_t(part)] = left_s; }
+    /// Of a part that has not begun, or that knows what it has left. References may go on between others.
+    void set_left(Part part, double left_s) { left_s_[size_t(part)] = left_s; }
     /// Of a part in work that goes evenly: the parts before it have nothing left.
     void advance(Part part, double done);
-    /// Of a part that knows what it has left.
-    void set_left(Part part, double left_s);
 
     /// Share of the whole time, 0 to 1. Never falls.
     [[nodiscard]] double done();
@@ -26,7 +24,7 @@ class WorkEstimate {
     using Clock = std::chrono::steady_clock;
     void begin(Part part);
 
-    std::array<double, 5> left_s_{};
+    std::array<double, 6> left_s_{};
     Part current_ = Part::first_samples;
     Clock::time_point start_ = Clock::now(), part_start_ = start_;
     double most_ = 0;

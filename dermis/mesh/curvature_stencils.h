@@ -33,7 +33,7 @@ class CurvatureStencils {
         const uint32_t i = position_of_vertex_[vertex];
         return std::span(entries_).subspan(first_[i], first_[i + 1] - first_[i]);
     }
-    /// Of the fitted surface when all vertices are at these positions.
+    /// The curvature of the fitted surface when the vertices of the mesh have these positions.
     [[nodiscard]] CurvatureTensor tensor(uint32_t vertex, std::span<const Vec3> positions_mm) const;
 
   private:

@@ -41,9 +41,8 @@ struct FitFrame {
 
     FitFrame(const WeldedSurface& surface, uint32_t centre, std::span<const Neighbour> neighbours,
              double sigma_mm);
-    /// A Gaussian of the distance along edges, times the area that a neighbour stands for. Without a
-    /// `sigma_mm` of the neighbourhood the vertex itself counts most, so that the fit passes near it, and
-    /// areas do not count.
+    /// Of a neighbour in the least squares: a Gaussian of its distance times its area. If sigma_mm is 0, the
+    /// Gaussian is that of Neighbourhood and all areas count alike; the fit then passes near the vertex.
     [[nodiscard]] double weight(const WeldedSurface& surface, const Neighbour& neighbour) const;
 };
 

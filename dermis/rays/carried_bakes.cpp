@@ -61,10 +61,6 @@ std::vector<FrameSource> frame_sources(std::span<const SceneObject> objects) {
     return sources;
 }
 
-}  // namespace
-
-namespace {
-
 // One tensor a vertex, by its frames at rest and in the pose.
 std::vector<CurvatureTensor> by_frames(const Mesh& rest, const Mesh& posed, const auto& tensor_of) {
     const FrameSource from(rest), to(posed);

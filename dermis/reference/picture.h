@@ -66,8 +66,7 @@ struct ReferenceSettings {
     LightingSettings lighting;               ///< entry_eta is set from medium and `entry`
     LightEntry entry = LightEntry::fresnel;  ///< walk
     std::optional<ScatteringMedium> medium;  ///< walk: else walk_medium_of the scene's profile
-    std::shared_ptr<SharedTracing> tracing =
-        {};  ///< of this scene; null: it is loaded for this reference alone
+    std::shared_ptr<SharedTracing> tracing;  ///< of this scene; null: loads it for this reference alone
 };
 
 /// The picture so far, linear f32. The error of a pixel is the standard error of its mean luminance

@@ -46,7 +46,7 @@ class PixelSampler {
     /// number of samples has the expected mean of all cells, and each run of grid^2 from a multiple of it has
     /// each cell once.
     [[nodiscard]] PixelSample sample(uint32_t seed, int x, int y, uint32_t index) const;
-    /// Of the same place, PixelSample::skin alone; takes no light.
+    /// PixelSample::skin of sample(), without its light.
     [[nodiscard]] float skin(uint32_t seed, int x, int y, uint32_t index) const;
     /// By the seed of the settings.
     [[nodiscard]] PixelSample sample(int x, int y, uint32_t index) const {
