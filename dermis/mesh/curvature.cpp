@@ -16,12 +16,12 @@
 namespace dermis::inline mesh {
 namespace {
 
-constexpr int kTerms = 6;
-using Terms = Eigen::Matrix<double, kTerms, 1>;
+using Terms = Eigen::Matrix<double, kQuadraticTerms, 1>;
 
 // Nothing when the points do not determine the surface: a pivot of Cholesky's factor is close to 0.
-std::optional<Terms> solve(const Eigen::Matrix<double, kTerms, kTerms>& lower, const Terms& rhs) {
-    const Eigen::LLT<Eigen::Matrix<double, kTerms, kTerms>> factor(lower);
+std::optional<Terms> solve(const Eigen::Matrix<double, kQuadraticTerms, kQuadraticTerms>& lower,
+                           const Terms& rhs) {
+    const Eigen::LLT<Eigen::Matrix<double, kQuadraticTerms, kQuadraticTerms>> factor(lower);
     if (factor.info() != Eigen::Success) return std::nullopt;
     const Terms pivots = factor.matrixLLT().diagonal().array().square();
     if (!(pivots.array() > 1e-10 * lower.diagonal().array()).all()) return std::nullopt;
@@ -53,11 +53,11 @@ CurvatureTensor fit_at(const WeldedSurface& surface, uint32_t centre, const Neig
     const FitFrame frame(surface, centre, around.all, around.sigma_mm);
     const double scale = frame.scale_mm;
     if (scale == 0) return {};
-    Eigen::Matrix<double, kTerms, kTerms> normal_matrix;
+    Eigen::Matrix<double, kQuadraticTerms, kQuadraticTerms> normal_matrix;
     normal_matrix.setZero();
     Terms rhs = Terms::Zero();
     for (const Neighbour& other : around.all) {
-        const Vec3 p = surface.positions[other.position] - frame.origin;
+        const Vec3 p = surface.positions_mm[other.position] - frame.origin_mm;
         const double x = dot(p, frame.x_axis) / scale, y = dot(p, frame.y_axis) / scale,
                      z = dot(p, frame.n) / scale;
         const double weight = frame.weight(surface, other);

@@ -10,7 +10,6 @@
 namespace dermis::inline mesh {
 namespace {
 
-constexpr int kStencilTerms = 6;
 using StencilEntries = std::vector<CurvatureStencils::Entry>;
 
 // In the order of the walk, which is that of their distance.
@@ -28,27 +27,27 @@ StencilEntries stencil_at(const WeldedSurface& surface, uint32_t centre, const N
     const double scale = frame.scale_mm;
     if (scale == 0) return {};
     const auto count = Eigen::Index(neighbours.size());
-    Eigen::Matrix<double, Eigen::Dynamic, kStencilTerms> terms(count, kStencilTerms);
+    Eigen::Matrix<double, Eigen::Dynamic, kQuadraticTerms> terms(count, kQuadraticTerms);
     Eigen::VectorXd weights(count);
     for (Eigen::Index i = 0; i < count; ++i) {
         const Neighbour& other = neighbours[size_t(i)];
-        const Vec3 p = surface.positions[other.position] - frame.origin;
+        const Vec3 p = surface.positions_mm[other.position] - frame.origin_mm;
         const double x = dot(p, frame.x_axis) / scale, y = dot(p, frame.y_axis) / scale;
         terms.row(i) << 1, x, y, x * x / 2, x * y, y * y / 2;
         weights[i] = frame.weight(surface, other);
     }
-    const Eigen::Matrix<double, kStencilTerms, Eigen::Dynamic> weighted =
+    const Eigen::Matrix<double, kQuadraticTerms, Eigen::Dynamic> weighted =
         terms.transpose() * weights.asDiagonal();
-    const Eigen::LDLT<Eigen::Matrix<double, kStencilTerms, kStencilTerms>> factor(weighted * terms);
+    const Eigen::LDLT<Eigen::Matrix<double, kQuadraticTerms, kQuadraticTerms>> factor(weighted * terms);
     const auto pivots = factor.vectorD().array();
     if (factor.info() != Eigen::Success || !(pivots > 1e-8 * pivots.maxCoeff()).all()) return {};
-    const Eigen::Matrix<double, kStencilTerms, Eigen::Dynamic> rows = factor.solve(weighted);
+    const Eigen::Matrix<double, kQuadraticTerms, Eigen::Dynamic> rows = factor.solve(weighted);
     if (!rows.allFinite()) return {};
     StencilEntries entries;
     for (Eigen::Index i = 0; i < count; ++i) {
         if (neighbours[size_t(i)].position == centre) continue;
         CurvatureStencils::Entry entry{neighbours[size_t(i)].position, {}};
-        for (Eigen::Index k = 1; k < kStencilTerms; ++k)
+        for (Eigen::Index k = 1; k < kQuadraticTerms; ++k)
             entry.weights[size_t(k - 1)] = float(rows(k, i) / (k < 3 ? scale : scale * scale));
         entries.push_back(entry);
     }
@@ -93,17 +92,18 @@ CurvatureTensor CurvatureStencils::tensor(uint32_t vertex, std::span<const Vec3>
     return {{x.x, y.y, z.z}, {y.z, x.z, x.y}};
 }
 
-CurvatureAtRest::CurvatureAtRest(const Mesh& mesh, double smoothing_mm) : tensors(mesh.curvatures_per_mm) {
-    if (tensors.empty()) return;
+CurvatureAtRest::CurvatureAtRest(const Mesh& mesh, double smoothing_mm)
+    : tensors_per_mm(mesh.curvatures_per_mm) {
+    if (tensors_per_mm.empty()) return;
     stencils = CurvatureStencils(mesh, smoothing_mm);
-    for (uint32_t v = 0; v < tensors.size(); ++v)
-        stencil_tensors.push_back(stencils.tensor(v, mesh.positions_mm));
+    for (uint32_t v = 0; v < tensors_per_mm.size(); ++v)
+        stencil_tensors_per_mm.push_back(stencils.tensor(v, mesh.positions_mm));
 }
 
 CurvatureTensor CurvatureAtRest::posed(uint32_t vertex, const SurfaceFrame& rest, const SurfaceFrame& posed,
                                        std::span<const Vec3> positions_mm) const {
-    const CurvatureTensor turned = moved(rest, posed, tensors[vertex]),
-                          before = moved(rest, posed, stencil_tensors[vertex]),
+    const CurvatureTensor turned = moved(rest, posed, tensors_per_mm[vertex]),
+                          before = moved(rest, posed, stencil_tensors_per_mm[vertex]),
                           after = stencils.tensor(vertex, positions_mm);
     const Vec3 diagonal = after.diagonal - before.diagonal, mixed = after.mixed - before.mixed;
     const float limit = posing::change_limit(diagonal, mixed);

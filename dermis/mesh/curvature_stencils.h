@@ -13,8 +13,7 @@ namespace dermis::inline mesh {
 /// The derivatives of the quadratic surface p(x, y) that is fitted to the vertices around a vertex, with the
 /// weights of compute_curvature(): p_x = sum of weight (p - p_vertex), and so p_y, p_xx, p_xy, p_yy.
 /// Coordinates x and y are lengths in mm in the tangent plane at rest. A fit of vectors takes stretch along
-/// the surface into account. At most kMostNeighbours vertices, spread over the neighbourhood: with 16
-/// the error is lower by a fifth.
+/// the surface into account. At most kMostNeighbours vertices, spread over the neighbourhood.
 class CurvatureStencils {
   public:
     static constexpr size_t kMostNeighbours = 10;
@@ -44,10 +43,10 @@ class CurvatureStencils {
 /// Curvature at rest that turns with the surface's frame and changes as its stencils' does, by at most
 /// posing::kMostCurvatureChange. Against curvature computed in the pose: docs/figures.md#moving-heads.
 struct CurvatureAtRest {
-    // Of each vertex, in 1/mm; empty for a mesh without curvature.
-    std::vector<CurvatureTensor> tensors;
+    // Of each vertex; empty for a mesh without curvature.
+    std::vector<CurvatureTensor> tensors_per_mm;
     CurvatureStencils stencils;
-    std::vector<CurvatureTensor> stencil_tensors;
+    std::vector<CurvatureTensor> stencil_tensors_per_mm;
 
     CurvatureAtRest() = default;
     /// Takes Mesh::curvatures_per_mm, which has this smoothing.

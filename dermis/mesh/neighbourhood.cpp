@@ -11,7 +11,7 @@ namespace {
 constexpr size_t kMaxNeighbours = 1500;
 
 void add_edges(WeldedSurface& surface, std::span<const uint32_t> positions) {
-    const size_t count = surface.positions.size();
+    const size_t count = surface.positions_mm.size();
     const CornerTable table(positions, count);
     std::vector<uint32_t> ring;
     for (uint32_t i = 0; i < count; ++i) {
@@ -30,31 +30,32 @@ void add_edges(WeldedSurface& surface, std::span<const uint32_t> positions) {
 }  // namespace
 
 WeldedSurface::WeldedSurface(const Mesh& mesh, const Weld& weld)
-    : normals(weld.count()), areas(weld.count()) {
-    for (const uint32_t vertex : weld.first) positions.push_back(mesh.positions_mm[vertex]);
+    : normals(weld.count()), areas_mm2(weld.count()) {
+    for (const uint32_t vertex : weld.first) positions_mm.push_back(mesh.positions_mm[vertex]);
     for (size_t i = 0; i < mesh.normals.size(); ++i) normals[weld.ids[i]] += mesh.normals[i];
     for (Vec3& n : normals) n = normalize(n);
     const std::vector<uint32_t> corners = welded_indices(mesh.indices, weld);
     for (size_t i = 0; i < corners.size(); i += 3) {
-        const Vec3 a = positions[corners[i]];
-        const float area = length(cross(positions[corners[i + 1]] - a, positions[corners[i + 2]] - a)) / 6;
-        for (size_t k = 0; k < 3; ++k) areas[corners[i + k]] += area;
+        const Vec3 a = positions_mm[corners[i]];
+        const float area =
+            length(cross(positions_mm[corners[i + 1]] - a, positions_mm[corners[i + 2]] - a)) / 6;
+        for (size_t k = 0; k < 3; ++k) areas_mm2[corners[i + k]] += area;
     }
     add_edges(*this, corners);
 }
 
 FitFrame::FitFrame(const WeldedSurface& surface, uint32_t centre, std::span<const Neighbour> neighbours,
                    double sigma)
-    : origin(surface.positions[centre]), n(surface.normals[centre]), sigma_mm(sigma) {
+    : origin_mm(surface.positions_mm[centre]), n(surface.normals[centre]), sigma_mm(sigma) {
     x_axis = normalize(cross(std::abs(n.x) < 0.6f ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n));
     y_axis = cross(n, x_axis);
     for (const Neighbour& other : neighbours)
-        scale_mm = std::max(scale_mm, double(length(surface.positions[other.position] - origin)));
+        scale_mm = std::max(scale_mm, double(length(surface.positions_mm[other.position] - origin_mm)));
 }
 
 double FitFrame::weight(const WeldedSurface& surface, const Neighbour& neighbour) const {
     const double t = neighbour.distance_mm / (sigma_mm > 0 ? sigma_mm : 0.7 * scale_mm);
-    return std::exp(-t * t / 2) * (sigma_mm > 0 ? surface.areas[neighbour.position] : 1);
+    return std::exp(-t * t / 2) * (sigma_mm > 0 ? surface.areas_mm2[neighbour.position] : 1);
 }
 
 Neighbourhood NeighbourWalker::around(uint32_t centre, double smoothing_mm) {
@@ -73,7 +74,8 @@ std::span<const Neighbour> NeighbourWalker::rings(uint32_t centre, int count) {
         for (size_t i = begin; i < end && found_.size() < kMaxNeighbours; ++i)
             for (const uint32_t next : surface_.around(found_[i].position))
                 if (visit(centre, next))
-                    found_.push_back({next, length(surface_.positions[next] - surface_.positions[centre])});
+                    found_.push_back(
+                        {next, length(surface_.positions_mm[next] - surface_.positions_mm[centre])});
         begin = end;
     }
     return found_;
@@ -95,7 +97,7 @@ std::span<const Neighbour> NeighbourWalker::within(uint32_t centre, float radius
         if (!same_side(centre, at)) continue;
         found_.push_back({at, distance});
         for (const uint32_t next : surface_.around(at)) {
-            const float there = distance + length(surface_.positions[next] - surface_.positions[at]);
+            const float there = distance + length(surface_.positions_mm[next] - surface_.positions_mm[at]);
             if (there <= radius_mm && mark_[next] != generation_) open.push({there, next});
         }
     }

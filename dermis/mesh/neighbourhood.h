@@ -9,9 +9,12 @@
 
 namespace dermis::inline mesh {
 
+/// Terms of a quadratic surface over a plane: 1, x, y, and three of second order.
+inline constexpr int kQuadraticTerms = 6;
+
 struct WeldedSurface {
-    std::vector<Vec3> positions, normals;  ///< normals unit
-    std::vector<float> areas;              ///< a third of the triangles around, mm^2
+    std::vector<Vec3> positions_mm, normals;  ///< normals unit
+    std::vector<float> areas_mm2;             ///< a third of the triangles around
     /// Along edges: neighbours[first[i] .. first[i + 1]) of position i.
     std::vector<uint32_t> first, neighbours;
 
@@ -35,7 +38,7 @@ struct Neighbourhood {
 
 /// What a fit over the tangent plane of a vertex needs.
 struct FitFrame {
-    Vec3 origin, x_axis, y_axis, n;
+    Vec3 origin_mm, x_axis, y_axis, n;
     double scale_mm = 0;  ///< distance of the farthest neighbour: lengths over it give terms of like sizes
     double sigma_mm = 0;
 
@@ -50,7 +53,7 @@ struct FitFrame {
 class NeighbourWalker {
   public:
     explicit NeighbourWalker(const WeldedSurface& surface)
-        : surface_(surface), mark_(surface.positions.size(), 0) {}
+        : surface_(surface), mark_(surface.positions_mm.size(), 0) {}
 
     /// All within twice `smoothing_mm` along edges (1500 at most); those of two rings where these are fewer
     /// than twelve or `smoothing_mm` is 0. Valid until the next call.

@@ -263,8 +263,8 @@ class ArrayMaker {
         const auto in_axes = [&](const std::vector<CurvatureTensor>& tensors) {
             return tensors.empty() ? CurvatureTensor{} : moved(frame, axes, tensors[v]);
         };
-        const CurvatureTensor s = in_axes(rest_.curvature.tensors),
-                              stencil = in_axes(rest_.curvature.stencil_tensors);
+        const CurvatureTensor s = in_axes(rest_.curvature.tensors_per_mm),
+                              stencil = in_axes(rest_.curvature.stencil_tensors_per_mm);
         vertices_.add(place, first, stencil_entries(), influences_[place], directions, beside, rest_area,
                       motion_.normals[file_vertex], moved(frame, axes, Vec3{t.x, t.y, t.z}), t.w, s.diagonal,
                       s.mixed, stencil.diagonal, stencil.mixed);
@@ -274,7 +274,7 @@ class ArrayMaker {
     [[nodiscard]] uint32_t stencil_entries() const { return uint32_t(stencils_.all.size() / 6); }
 
     void add_stencil(uint32_t v) {
-        if (rest_.curvature.tensors.empty()) return;
+        if (rest_.curvature.tensors_per_mm.empty()) return;
         for (const CurvatureStencils::Entry& entry : rest_.curvature.stencils.around(v)) {
             const auto& w = entry.weights;
             stencils_.add(place_of(entry.vertex), w[0], w[1], w[2], w[3], w[4]);

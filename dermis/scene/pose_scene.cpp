@@ -33,7 +33,7 @@ void move_vertices(Mesh& mesh, const PosedVertices& posed, const SurfaceAtRest& 
             const Vec3 turned = moved(before, after, Vec3{t.x, t.y, t.z});
             mesh.tangents[v] = {turned.x, turned.y, turned.z, t.w};
         }
-        if (!rest.curvature.tensors.empty())
+        if (!rest.curvature.tensors_per_mm.empty())
             mesh.curvatures_per_mm[v] = rest.curvature.posed(v, before, after, mesh.positions_mm);
     }
 }

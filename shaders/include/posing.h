@@ -83,8 +83,8 @@ DERMIS_FUNCTION vec3 curvature_along(CurvatureForm form, vec3 v) {
     return form.dual_x * (form.xx * x + form.xy * y) + form.dual_y * (form.xy * x + form.yy * y);
 }
 
-// A stencil's change of curvature is kept below this, in 1/mm: in folds, whose walls come close, it is wrong
-// by more. On ICT's clip "frown" half and twice as much leave the same error within 5 %.
+// The largest change of curvature that a stencil may make, in 1/mm. In folds, whose walls come close, the fit
+// can be off by many times as much.
 DERMIS_CONSTANT float kMostCurvatureChange = 0.1f;
 
 // A factor on a change of a tensor, by its Frobenius norm.
