@@ -57,10 +57,6 @@ Result<ReferencePicture> unscattered(const Scene& scene, const ReferenceSettings
     return std::move(made.picture);
 }
 
-Error stopped_early() {
-    return Error{"stopped too early: some pixels have no sample yet, so nothing can be shown"};
-}
-
 Image whole_skin(const Image& skin) {
     Image mask = skin;
     for (float& v : mask.floats()) v = v >= 1 ? 1 : 0;
@@ -196,7 +192,7 @@ struct EffectReferenceMaker::Work {
             hooks.done(first ? share : (passes + share * (mean - passes)) / wanted, first);
         };
         const bool complete = sampler->raise(counts_of(mean), samples, done, hooks.stop);
-        if (!complete && first) return stopped_early();
+        if (!complete && first) return stopped_without_a_picture();
         time_ms +=
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         if (complete) passes = mean;

@@ -159,6 +159,10 @@ Result<ScatteringMedium> medium_of_scene(const Scene& scene) {
     return walk_medium_of(profile);
 }
 
+Error stopped_without_a_picture() {
+    return Error{"stopped before every pixel had a sample: there is no picture yet"};
+}
+
 Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSettings& settings,
                                           const ReferenceProgress& progress, const std::atomic<bool>* stop,
                                           const ReferencePreview& preview) {
@@ -184,7 +188,7 @@ Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSet
         }
         if (progress) progress(share_done(settings, pass, error));
     }
-    if (pass == 0) return Error{"stopped before the first pass was complete: there is no picture yet"};
+    if (pass == 0) return stopped_without_a_picture();
     ReferencePicture picture = picture_of(canvas.sums);
     DERMIS_TRY_ASSIGN(const std::vector<std::string> notes, walk_notes(scene, settings));
     picture.warnings.insert(picture.warnings.end(), notes.begin(), notes.end());

@@ -102,6 +102,9 @@ using ReferencePreview = std::function<void(const Image& radiance)>;
                                                         const std::atomic<bool>* stop = nullptr,
                                                         const ReferencePreview& preview = {});
 
+/// What a reference says that was stopped while some pixels had no sample.
+[[nodiscard]] Error stopped_without_a_picture();
+
 /// Errors: sizes and numbers out of range.
 [[nodiscard]] Result<void> check(const ReferenceSettings& settings);
 
