@@ -23,11 +23,14 @@
 #include "dermis/base/file.h"
 #include "dermis/base/hash.h"
 #include "dermis/base/progress.h"
+#include "dermis/base/text.h"
 #include "dermis/gpu/statistics.h"
+#include "dermis/judge/clip_motion.h"
 #include "dermis/judge/reference_cache.h"
 #include "dermis/judge/scoreboard.h"
 #include "dermis/optics/presets.h"
 #include "dermis/render/complete_scene.h"
+#include "dermis/render/move_scene.h"
 #include "dermis/report/ratios.h"
 #include "dermis/scene/load_scene.h"
 #include "dermis/scene/scene_views.h"
@@ -60,7 +63,11 @@ constexpr const char* kScenes[] = {"spheres",
                                    "head_scan@ear/openpbr_skin_1",
                                    "head_scan@ear/openpbr_skin_3",
                                    "head_scan@ear/openpbr_skin_6",
-                                   "backlit"};
+                                   "backlit",
+                                   "bust greet"};
+// Of a scene "HEAD CLIP": its frames; of the bust's clip those in which the jaw opens.
+constexpr double kClipStart_s = 2.9, kClipFramesPerS = 24;
+constexpr int kClipFrames = 3;
 // What follows an @ in a scene's name: a view of the head scan, 47 mm wide.
 struct NearView {
     std::string_view name;
@@ -72,6 +79,9 @@ constexpr NearView kNearViews[] = {
 constexpr float kNearPitchDeg = 2, kNearDistanceMm = 420, kNearFovDeg = 6.4f;
 // Of each unit scene, whose subject fills the picture.
 constexpr int kCaseSize = 96;
+// Of a clip. The change between two frames is less than the effect, so its references are finer.
+constexpr int kClipSize = 96;
+constexpr double kClipNoise = .2;
 // A larger picture reaches noise_of_size() with fewer walks a sample than a comparison takes.
 constexpr int kCoarseSide = 128, kFewWalks = 6;
 // What costs are modelled for: the frame of docs/performance.md.
@@ -91,8 +101,9 @@ constexpr const char* kText =
     "%d x %d (unit scenes 96 x 96). **Modelled**: the same for a %s at %d x %d, a model\n"
     "([assumptions](performance.md)); empty where Mesa's RADV was not installed. Memory: tables and images "
     "of the technique\n"
-    "alone. scoreboard.csv also has RMSE, FLIP and ΔE 2000. Shares of what moves: "
-    "[motion](figures.md#motion).\n\n"
+    "alone. scoreboard.csv also has RMSE, FLIP and ΔE 2000. Of a clip: means of "
+    "its frames, and **its motion**, how much of the change\n"
+    "of the effect from frame to frame a technique has ([another face](figures.md#motion)).\n\n"
     "`tools/scoreboard` makes this page, [scoreboard.csv](scoreboard.csv) and the plot again.\n\n"
     "![Captured share over cost](scoreboard.svg)\n\n";
 
@@ -101,14 +112,14 @@ int fail(const std::string& message) {
     return 1;
 }
 
-Result<std::vector<ScoreRow>> compare(gpu::Device& device, const std::string& name, const Scene& scene,
-                                      const std::vector<Contestant>& contestants,
-                                      const ComparisonSettings& settings) {
+Result<Comparison> compare(gpu::Device& device, Renderer& renderer, const std::string& name,
+                           const Scene& scene, const std::vector<Contestant>& contestants,
+                           const ComparisonSettings& settings) {
     Progress line(name, 0);
-    const Result<Comparison> comparison = compare_techniques(
-        device, built_in_catalog(), scene, contestants, settings,
+    Result<Comparison> comparison = compare_techniques(
+        device, renderer, built_in_catalog(), scene, contestants, settings,
         {.progress = [&](double done, const std::string& what) { line.set(done, name + ": " + what); }});
-    if (!comparison) return comparison.error();
+    if (!comparison) return comparison;
     const auto print = [&](Integrator integrator, const EffectReference& reference) {
         std::printf("%s: reference %s of %d samples a pixel in %.0f s%s, noise %.2f of the effect%s\n",
                     name.c_str(), std::string(judge_name(integrator)).c_str(), reference.samples,
@@ -118,7 +129,29 @@ Result<std::vector<ScoreRow>> compare(gpu::Device& device, const std::string& na
     };
     print(comparison->integrator, comparison->reference);
     if (comparison->second) print(*comparison->second_integrator, *comparison->second);
-    return score_rows(name, *comparison);
+    return comparison;
+}
+
+// Of a scene without a clip, or of the frames of its clip. The scene moves with them.
+Result<std::vector<ScoreRow>> compared_rows(gpu::Device& device, const std::string& name, Scene& scene,
+                                            const std::vector<Contestant>& contestants,
+                                            const ComparisonSettings& settings) {
+    DERMIS_TRY_ASSIGN(Renderer renderer,
+                      Renderer::create(device, gpu::embedded_shaders(built_in_catalog().shaders), scene));
+    if (scene.motion.clip.empty()) {
+        DERMIS_TRY_ASSIGN(const Comparison made,
+                          compare(device, renderer, name, scene, contestants, settings));
+        return score_rows(name, made);
+    }
+    ComparedFrames frames;
+    for (int i = 0; i < kClipFrames; ++i) {
+        const double time_s = kClipStart_s + i / kClipFramesPerS;
+        if (i > 0) DERMIS_TRY(move_scene(time_s, scene, renderer));
+        DERMIS_TRY_ASSIGN(const Comparison made,
+                          compare(device, renderer, name, scene, contestants, settings));
+        DERMIS_TRY(frames.add(name, time_s, made));
+    }
+    return rows_of_clip(name, frames.all);
 }
 
 // Everything that a scene's rows depend on: this program with its shaders and techniques, the scene, the
@@ -184,10 +217,14 @@ Result<void> look_at(Scene& scene, std::string_view view) {
 
 Result<SubjectCase> scene_of(Job& job) {
     if (!job.made) {
-        const size_t slash = job.name.find('/');
-        const std::string head = job.name.substr(0, slash);
+        const size_t slash = job.name.find('/'), space = job.name.find(' ');
+        const std::string head = job.name.substr(0, std::min(slash, space));
         const size_t at = head.find('@');
-        Result<Scene> scene = load_scene(head.substr(0, at), {.subjects = built_in_catalog().subjects});
+        SceneOptions options{.subjects = built_in_catalog().subjects};
+        if (space != std::string::npos)
+            options.words = {{"animation.clip", job.name.substr(space + 1)},
+                             {"animation.time_s", to_text(kClipStart_s)}};
+        Result<Scene> scene = load_scene(head.substr(0, at), options);
         if (!scene) return scene.error();
         if (at != std::string::npos) DERMIS_TRY(look_at(*scene, std::string_view(head).substr(at + 1)));
         if (slash != std::string::npos) {
@@ -207,7 +244,7 @@ struct MadeRows {
 };
 
 // From the cache, or computed and stored there.
-Result<MadeRows> rows_of(gpu::Device& device, const std::string& name, const Scene& scene,
+Result<MadeRows> rows_of(gpu::Device& device, const std::string& name, Scene& scene,
                          const std::vector<Contestant>& contestants, const ComparisonSettings& settings) {
     const Result<std::string> hash = rows_hash(scene, contestants, settings);
     if (!hash) return hash.error();
@@ -218,7 +255,7 @@ Result<MadeRows> rows_of(gpu::Device& device, const std::string& name, const Sce
         if (!rows) return rows.error();
         return MadeRows{std::move(*rows), true};
     }
-    Result<std::vector<ScoreRow>> rows = compare(device, name, scene, contestants, settings);
+    Result<std::vector<ScoreRow>> rows = compared_rows(device, name, scene, contestants, settings);
     if (!rows) return rows.error();
     const std::string text = scores_csv(*rows);
     const auto bytes = std::as_bytes(std::span(text));
@@ -269,9 +306,10 @@ void print_what_is_left(size_t left, size_t all, double made_s, size_t made) {
 }
 
 ComparisonSettings settings_of(const Job& job, int size) {
-    const int side = job.made ? std::min(size, kCaseSize) : size;
+    const bool moves = job.name.find(' ') != std::string::npos;
+    const int side = job.made ? std::min(size, kCaseSize) : moves ? std::min(size, kClipSize) : size;
     ComparisonSettings settings = comparison_settings(side, side);
-    settings.noise = noise_of_size(side, side);
+    settings.noise = moves ? kClipNoise : noise_of_size(side, side);
     if (!job.made && side > kCoarseSide) settings.walks = kFewWalks;
     settings.frames = 2;
     settings.reference.integrator = Integrator::walk;
@@ -290,7 +328,7 @@ Result<void> make_board(gpu::Device& device, const std::filesystem::path& direct
         const bool with_cost = shows_cost(jobs[i]);  // scene_of() makes it
         ComparisonSettings own = settings_of(jobs[i], size);
         const Clock::time_point start = Clock::now();
-        const Result<SubjectCase> one = scene_of(jobs[i]);
+        Result<SubjectCase> one = scene_of(jobs[i]);
         if (!one) {
             std::printf("%s is passed over, its rows stay: %s\n", jobs[i].name.c_str(),
                         one.error().message.c_str());

@@ -11,6 +11,7 @@
 #include "compare_text.h"
 #include "comparison_progress.h"
 #include "dermis/base/file.h"
+#include "dermis/judge/clip_motion.h"
 #include "dermis/judge/report.h"
 #include "stop_on_signals.h"
 
@@ -64,7 +65,7 @@ Result<void> compare_frame(gpu::Device& device, const ClipWork& work, int frame,
     results.links.push_back(folder + "/report.html");
     const std::string regions = regions_csv(one.name, *made);
     results.regions += results.regions.empty() ? regions : regions.substr(regions.find('\n') + 1);
-    DERMIS_TRY(results.frames.add(one, time_s, *made));
+    DERMIS_TRY(results.frames.add(one.name, time_s, *made));
     results.credit = one.scene.credit;
     nlohmann::ordered_json json = {{"time_s", time_s}};
     json.update(to_json((work.directory / folder).string(), one, *made));

@@ -55,12 +55,4 @@ Result<void> ClipFrames::show(size_t frame) {
     return {};
 }
 
-Result<void> ComparedFrames::add(const SubjectCase& one, double time_s, const Comparison& comparison) {
-    all.push_back({.time_s = time_s, .rows = score_rows(one.name, comparison)});
-    ClipEffects effects = clip_effects(comparison);
-    if (last) DERMIS_TRY(set_motion_shares(*last, effects, all.back().rows));
-    last = std::move(effects);
-    return {};
-}
-
 }  // namespace dermis::cli

@@ -2,12 +2,10 @@
 // Frames of a clip for `dermis compare`: one scene that moves from frame to frame.
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "compare_options.h"
-#include "dermis/judge/clip_motion.h"
 #include "dermis/render/renderer.h"
 
 namespace dermis::cli {
@@ -41,15 +39,6 @@ class ClipFrames {
     std::vector<double> times_s_;
     std::unique_ptr<SubjectCase> shown_;
     std::unique_ptr<Renderer> renderer_;  // draws shown_->scene
-};
-
-/// The frames of a clip that are compared so far.
-struct ComparedFrames {
-    std::vector<ClipFrame> all;
-    std::optional<ClipEffects> last;  ///< effects of the frame that was added last
-
-    /// Frames are added in their order. Errors: those of set_motion_shares().
-    [[nodiscard]] Result<void> add(const SubjectCase& one, double time_s, const Comparison& comparison);
 };
 
 }  // namespace dermis::cli

@@ -8,6 +8,7 @@
 #include "compare_options.h"
 #include "compare_scenes.h"
 #include "compare_text.h"
+#include "dermis/judge/clip_motion.h"
 #include "kept_device.h"
 #include "module.h"
 #include "scene_arguments.h"
@@ -82,14 +83,14 @@ Result<ClipComparison> compare_frames(const cli::CompareChoice& choice, const Co
     DERMIS_TRY_ASSIGN(cli::ClipFrames frames, cli::ClipFrames::load(choice, device->device()));
     ClipComparison clip;
     clip.times_s = frames.times_s();
-    cli::ComparedFrames compared;
+    ComparedFrames compared;
     const double share = 1 / double(clip.times_s.size());
     for (size_t i = 0; i < clip.times_s.size(); ++i) {
         DERMIS_TRY(frames.show(i));
         DERMIS_TRY_ASSIGN(OneComparison made,
                           compare_one(device->device(), frames.renderer(), frames.shown(), contestants,
                                       settings, watch, share * double(i), share));
-        DERMIS_TRY(compared.add(frames.shown(), clip.times_s[i], made.comparison));
+        DERMIS_TRY(compared.add(frames.shown().name, clip.times_s[i], made.comparison));
         clip.frames.push_back(std::move(made));
     }
     clip.json = cli::clip_json(choice.scene.pose.clip, compared.all, nullptr).dump();

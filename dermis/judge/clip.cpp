@@ -54,6 +54,25 @@ void set_motion(std::span<const ClipFrame> frames, const ClipRow& row, Integrato
     share.motion_error = rest > 0 ? std::sqrt(error_squares) / (effect * rest) : 0;
 }
 
+// Of a row that every frame has.
+Captured mean_captured(std::span<const ClipFrame> frames, const ClipRow& row, Integrator integrator) {
+    Captured mean;
+    const double weight = 1 / double(frames.size());
+    const auto add = [&](CapturedShare& sum, const CapturedShare& one) {
+        sum.share += weight * one.share;
+        sum.error = std::hypot(sum.error, weight * one.error);
+        sum.effect_rms += weight * one.effect_rms;
+        sum.reference_noise += weight * one.reference_noise;
+    };
+    for (const ClipFrame& frame : frames) {
+        const Captured& one = *captured_by(integrator, *row_of(frame, row));
+        add(mean.all, one.all);
+        for (size_t c = 0; c < mean.channels.size(); ++c) add(mean.channels[c], one.channels[c]);
+        mean.pixels = one.pixels;
+    }
+    return mean;
+}
+
 std::string clip_number(double value) {
     char text[32] = "";
     if (std::isfinite(value)) std::snprintf(text, sizeof text, "%.4f", value);
@@ -157,13 +176,11 @@ std::optional<ClipShare> clip_share(std::span<const ClipFrame> frames, const Cli
     ClipShare share{.worst = std::numeric_limits<double>::infinity(),
                     .worst_change = std::numeric_limits<double>::infinity()};
     ShareChange change;
-    double squares = 0, change_squares = 0;
+    double change_squares = 0;
     for (const ClipFrame& frame : frames) {
         const ScoreRow* found = row_of(frame, row);
         if (!found || !captured_by(integrator, *found)) return std::nullopt;
         const CapturedShare& one = captured_by(integrator, *found)->all;
-        share.mean += one.share;
-        squares += one.error * one.error;
         if (one.known() && one.share < share.worst)
             share.worst = one.share, share.worst_time_s = frame.time_s;
         if (const auto by_rest = change_by(integrator, *found, rest)) {
@@ -174,12 +191,34 @@ std::optional<ClipShare> clip_share(std::span<const ClipFrame> frames, const Cli
     }
     const double count = double(frames.size());
     if (frames.empty()) return std::nullopt;
-    share.mean /= count;
-    share.error = std::sqrt(squares) / count;
+    const CapturedShare mean = mean_captured(frames, row, integrator).all;
+    share.mean = mean.share;
+    share.error = mean.error;
     if (!std::isfinite(share.worst)) share.worst = std::nan("");
     if (rest) share.change = ShareChange{change.change / count, std::sqrt(change_squares) / count};
     set_motion(frames, row, integrator, share);
     return share;
+}
+
+std::vector<ScoreRow> rows_of_clip(const std::string& name, std::span<const ClipFrame> frames) {
+    std::vector<ScoreRow> rows;
+    for (const ClipRow& named : clip_rows(frames)) {
+        const ScoreRow* last = row_of(frames.back(), named);
+        if (!last) continue;
+        ScoreRow row = *last;
+        row.scene = name;
+        for (const Integrator integrator : kClipJudges) {
+            const std::optional<ClipShare> share = clip_share(frames, named, integrator);
+            if (!share) continue;
+            const bool by_walk = integrator == Integrator::walk;
+            (by_walk ? row.walk : row.surface) = mean_captured(frames, named, integrator);
+            std::optional<Captured>& motion = by_walk ? row.walk_motion : row.surface_motion;
+            motion.reset();
+            if (share->motion) motion.emplace().all = {.share = *share->motion, .error = share->motion_error};
+        }
+        rows.push_back(std::move(row));
+    }
+    return rows;
 }
 
 std::string clip_csv(std::span<const ClipFrame> frames) {

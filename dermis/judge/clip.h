@@ -55,6 +55,10 @@ inline constexpr Integrator kClipJudges[] = {Integrator::walk, Integrator::surfa
 [[nodiscard]] std::optional<ClipShare> clip_share(std::span<const ClipFrame> frames, const ClipRow& row,
                                                   Integrator integrator);
 
+/// A row for each technique, as of one scene with that name: means of the captured shares and
+/// of their effects, the share of the motion, and of the last frame its costs, memory and errors.
+[[nodiscard]] std::vector<ScoreRow> rows_of_clip(const std::string& name, std::span<const ClipFrame> frames);
+
 /// technique,settings,reference,frames,mean,mean_error,worst,worst_time_s,change,change_error,worst_change,
 /// motion,motion_error: a line for each row and reference. `change` is empty for rows with all bakes of the
 /// pose, `motion` where no pair of frames has any that is more than noise.

@@ -52,4 +52,12 @@ Result<void> set_motion_shares(const ClipEffects& before, const ClipEffects& now
     return {};
 }
 
+Result<void> ComparedFrames::add(const std::string& name, double time_s, const Comparison& comparison) {
+    all.push_back({.time_s = time_s, .rows = score_rows(name, comparison)});
+    ClipEffects effects = clip_effects(comparison);
+    if (last) DERMIS_TRY(set_motion_shares(*last, effects, all.back().rows));
+    last = std::move(effects);
+    return {};
+}
+
 }  // namespace dermis::inline judge

@@ -34,4 +34,14 @@ struct ClipEffects {
 [[nodiscard]] Result<void> set_motion_shares(const ClipEffects& before, const ClipEffects& now,
                                              std::vector<ScoreRow>& rows);
 
+/// The frames of a clip that are compared so far.
+struct ComparedFrames {
+    std::vector<ClipFrame> all;
+    std::optional<ClipEffects> last;  ///< effects of the frame that was added last
+
+    /// Frames are added in their order; `name` is the scene of the frame's rows. Errors: those of
+    /// set_motion_shares().
+    [[nodiscard]] Result<void> add(const std::string& name, double time_s, const Comparison& comparison);
+};
+
 }  // namespace dermis::inline judge

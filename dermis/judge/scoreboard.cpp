@@ -68,12 +68,20 @@ std::string ratio_text(std::optional<double> ratio) {
     return ratio ? figures(*ratio, "%.2f") : "";
 }
 
-std::string markdown_row(const ScoreRow& row) {
+std::string motion_text(const std::optional<Captured>& motion) {
+    return motion ? share_and_error_text(motion->all) : "";
+}
+
+std::string markdown_row(const ScoreRow& row, bool moves) {
     const Captured& captured = headline(row);
     std::string text =
         "| " + technique_cell(row.technique, row.settings) + " | " + share_and_error_text(captured.all);
     for (const CapturedShare& channel : captured.channels) text += " | " + share_text(channel);
-    if (row.walk && row.surface) text += " | " + share_and_error_text(row.surface->all);
+    if (moves) text += " | " + motion_text(row.walk ? row.walk_motion : row.surface_motion);
+    if (row.walk && row.surface) {
+        text += " | " + share_and_error_text(row.surface->all);
+        if (moves) text += " | " + motion_text(row.surface_motion);
+    }
     return text + " | " + figures(row.time_ratio, "%.2f") + " | " + ratio_text(row.model_ratio) + " | " +
            memory_text(row.bytes) + " |\n";
 }
@@ -156,11 +164,16 @@ std::vector<ScoreRow> rows_without(std::vector<ScoreRow> rows, const std::vector
 
 std::string scene_markdown(const std::string& scene, const std::vector<ScoreRow>& own) {
     const bool both = own.front().walk && own.front().surface;
+    const bool moves = std::ranges::any_of(own, [](const ScoreRow& row) {
+        return row.walk_motion.has_value() || row.surface_motion.has_value();
+    });
+    const std::string motion = moves ? " its motion |" : "", rule = moves ? "---|" : "";
     std::string text = "## " + scene + "\n\n" + effects_text(own.front()) + "\n\n| technique | of `" +
-                       std::string(own.front().walk ? "walk" : "surface") + "` | R | G | B |" +
-                       (both ? " of `surface` |" : "") + " × lambert measured | modelled | memory |\n" +
-                       "|---|---|---|---|---|---|---|---|" + (both ? "---|" : "") + "\n";
-    for (const ScoreRow& row : own) text += markdown_row(row);
+                       std::string(own.front().walk ? "walk" : "surface") + "` | R | G | B |" + motion +
+                       (both ? " of `surface` |" + motion : "") +
+                       " × lambert measured | modelled | memory |\n" + "|---|---|---|---|---|---|---|---|" +
+                       rule + (both ? "---|" + rule : "") + "\n";
+    for (const ScoreRow& row : own) text += markdown_row(row, moves);
     return text + "\n";
 }
 

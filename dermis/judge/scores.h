@@ -64,8 +64,8 @@ struct ScoreRow {
     std::optional<double> model_ratio;
     /// Of a row with bakes of the rest pose: from the row with bakes of the pose. Not in scores.csv.
     std::optional<ShareChange> walk_change = {}, surface_change = {};
-    /// Of a frame of a clip: the share of the motion since the frame before (clip_motion.h). Not in
-    /// scores.csv.
+    /// Of a frame of a clip: the share of the motion since the frame before (clip_motion.h). Of a clip: of
+    /// all its frames.
     std::optional<Captured> walk_motion = {}, surface_motion = {};
 };
 
@@ -85,7 +85,8 @@ struct ScoreColumn {
 /// walk_captured_error (half of the 95 % interval of walk_captured), walk_effect_rms, walk_reference_noise;
 /// the share against surface: captured, captured_r ... reference_noise, the same seven without "walk_"; rmse,
 /// rel_mse, psnr_db, ssim, delta_e_2000, flip, terminator_rmse, penumbra_rmse, time_ms, bytes, time_ratio,
-/// reference_rmse, model_ratio.
+/// reference_rmse, model_ratio; the shares of the motion and half of their 95 % intervals: walk_motion,
+/// walk_motion_error, motion, motion_error.
 [[nodiscard]] std::span<const ScoreColumn> score_columns();
 /// The columns of one share, those of walk first, at the beginning of score_columns().
 inline constexpr size_t kShareColumns = 7;

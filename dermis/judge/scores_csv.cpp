@@ -123,7 +123,11 @@ constexpr ScoreColumn kColumns[] = {
     row_column<&ScoreRow::time_ratio>("time_ratio"),
     row_column<&ScoreRow::reference_rmse>("reference_rmse"),
     {"model_ratio", [](const ScoreRow& row) { return row.model_ratio; },
-     [](ScoreRow& row, Value value) { row.model_ratio = value; }, true}};
+     [](ScoreRow& row, Value value) { row.model_ratio = value; }, true},
+    channel_column<&ScoreRow::walk_motion, kAllChannels>("walk_motion"),
+    interval_column<&ScoreRow::walk_motion>("walk_motion_error"),
+    channel_column<&ScoreRow::surface_motion, kAllChannels>("motion"),
+    interval_column<&ScoreRow::surface_motion>("motion_error")};
 
 constexpr std::string_view kNames[] = {"scene", "technique", "settings"};
 

@@ -99,6 +99,13 @@ TEST(Clip, share_of_the_motion_is_that_of_the_differences_between_frames) {
     ASSERT_TRUE(share && share->motion);
     // |T - S|^2 of both pairs is 0 and 1, |S|^2 1 and 4.
     EXPECT_NEAR(*share->motion, 1 - std::sqrt(1.0 / 5), 1e-6);
+    const std::vector<ScoreRow> whole = rows_of_clip("head talk", frames);
+    ASSERT_EQ(whole.size(), 1u);
+    EXPECT_EQ(whole[0].scene, "head talk");
+    EXPECT_DOUBLE_EQ(whole[0].walk->all.share, 0.5);
+    EXPECT_DOUBLE_EQ(whole[0].walk->all.error, 0.03 / std::sqrt(3.0));
+    EXPECT_EQ(whole[0].walk_motion->all.share, *share->motion);
+    EXPECT_FALSE(whole[0].surface_motion);
 }
 
 TEST(Clip, page_links_each_frame_and_escapes_text) {

@@ -121,7 +121,7 @@ TEST(Scoreboard, a_file_of_before_the_modelled_cost_is_read_and_rows_without_one
     ScoreRow modelled = row("bust", "wrap", 0.5);
     modelled.model_ratio = 1.75;
     const std::string text = scores_csv({modelled});
-    EXPECT_TRUE(text.ends_with(",1.75\n")) << text;
+    EXPECT_TRUE(text.ends_with(",1.75,,,,\n")) << text;
     const auto again = parse_scores(text);
     ASSERT_TRUE(again) << again.error().message;
     EXPECT_THAT(scoreboard_markdown(*again), HasSubstr("| 1.25 | 1.75 |"));
@@ -135,6 +135,23 @@ TEST(Scoreboard, a_file_of_before_the_modelled_cost_is_read_and_rows_without_one
     EXPECT_THAT(scoreboard_markdown(*rows), HasSubstr("| 1.25 |  |"));
     before.replace(before.find(",bytes"), 6, "");
     EXPECT_THAT(parse_scores(before).error().message, HasSubstr("line 1"));
+}
+
+TEST(Scoreboard, a_clip_has_columns_of_its_motion_and_other_scenes_have_none) {
+    ScoreRow moving = row("bust greet", "wrap", 0.5), still = row("bust", "wrap", 0.5);
+    moving.walk = moving.surface;
+    moving.walk_motion.emplace().all = {.share = -0.25, .error = 0.03};
+    moving.surface_motion.emplace().all = {.share = 0.75, .error = 0.04};
+    const auto rows = parse_scores(scores_csv({moving, still}));
+    ASSERT_TRUE(rows) << rows.error().message;
+    EXPECT_EQ((*rows)[0].walk_motion->all.share, -0.25);
+    EXPECT_EQ((*rows)[0].surface_motion->all.error, 0.04);
+    EXPECT_FALSE((*rows)[1].walk_motion);
+    const std::string text = scoreboard_markdown(*rows);
+    EXPECT_THAT(text, HasSubstr("| B | its motion | of `surface` | its motion | × lambert"));
+    EXPECT_THAT(text, HasSubstr(" | -0.25 ± 0.03 | 0.50 ± "));
+    EXPECT_THAT(text, HasSubstr(" | 0.75 ± 0.04 | 1.25 |"));
+    EXPECT_EQ(scoreboard_markdown({still}).find("motion"), std::string::npos);
 }
 
 TEST(Scoreboard, the_table_is_sorted_by_captured_share_and_the_plot_has_a_panel_a_scene) {
