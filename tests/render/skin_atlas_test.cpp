@@ -2,6 +2,8 @@
 
 #include "dermis/scene/skin_atlas.h"
 
+#include <map>
+
 #include <gmock/gmock.h>
 
 #include "dermis/mesh/primitives.h"
@@ -22,7 +24,7 @@ class SkinAtlasPicture : public RenderTest {
 
     static ParameterValues values_of(const Technique& technique) {
         ParameterValues values(technique.parameters);
-        if (technique.parameters.find("light_map_size")) EXPECT_TRUE(values.set("light_map_size", "1024"));
+        if (technique.parameters.find("light_map_size")) EXPECT_TRUE(values.set("light_map_size", "512"));
         if (technique.id == "preintegrated") EXPECT_TRUE(values.set("normals", "baked"));
         return values;
     }
@@ -52,18 +54,19 @@ TEST_F(SkinAtlasPicture, tiles_mirrored_halves_and_eight_materials_look_like_one
     EXPECT_TRUE(skin_of(clean).mesh.atlas_uvs.empty());
     Renderer of_clean = make_renderer(clean);
     const Image lambert = drawn(of_clean, "lambert");
+    std::map<std::string, Image> wanted;
+    for (const char* id : {"texture_space", "texture_space_gaussians", "preintegrated"})
+        wanted[id] = drawn(of_clean, id);
     for (const UvVariant& variant : uv_variants(clean)) {
         Renderer renderer = make_renderer(variant.scene);
-        for (const char* id : {"texture_space", "texture_space_gaussians", "preintegrated"}) {
-            const Image wanted = drawn(of_clean, id);
-            // Other texels alone make .05 to .08 of it, along the mouth and the eyelids.
-            const double error = error_of(drawn(renderer, id), wanted, lambert);
-            EXPECT_LT(error, 0.35) << variant.name << " " << id;
+        for (const auto& [id, image] : wanted) {
+            // Other texels alone make .07 to .19 of it, along the mouth and the eyelids.
+            EXPECT_LT(error_of(drawn(renderer, id), image, lambert), 0.25) << variant.name << " " << id;
         }
     }
     Renderer shared = make_renderer(without_layout);
-    const Image wanted = drawn(of_clean, "texture_space_gaussians");
-    EXPECT_GT(error_of(drawn(shared, "texture_space_gaussians"), wanted, lambert), 1.0);
+    const std::string id = "texture_space_gaussians";
+    EXPECT_GT(error_of(drawn(shared, id), wanted[id], lambert), 1.0);
 }
 
 TEST_F(SkinAtlasPicture, skin_without_uvs_scatters_as_with_a_clean_atlas) {
@@ -77,7 +80,7 @@ TEST_F(SkinAtlasPicture, skin_without_uvs_scatters_as_with_a_clean_atlas) {
     Renderer of_clean = make_renderer(clean), renderer = make_renderer(without_uvs);
     const Image lambert = drawn(of_clean, "lambert");
     for (const char* id : {"texture_space", "texture_space_gaussians", "preintegrated"})
-        EXPECT_LT(error_of(drawn(renderer, id), drawn(of_clean, id), lambert), 0.2) << id;
+        EXPECT_LT(error_of(drawn(renderer, id), drawn(of_clean, id), lambert), 0.05) << id;
 }
 
 TEST_F(SkinAtlasPicture, no_skin_is_left_alone) {
