@@ -53,7 +53,7 @@ Result<void> compare_frame(gpu::Device& device, const ClipWork& work, int frame,
     const SubjectCase& one = work.frames.shown();
     const double time_s = work.frames.times_s()[size_t(frame)];
     results.print_new(one.scene.warnings);
-    ComparisonProgress progress(turn, work.settings);
+    ComparisonProgress progress(turn);
     Result<Comparison> made =
         compare_techniques(device, work.frames.renderer(), built_in_catalog(), one.scene, work.contestants,
                            work.settings, progress.hooks());

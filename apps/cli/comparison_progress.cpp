@@ -73,10 +73,10 @@ void ComparisonProgress::keep(JudgedShares now, const std::vector<Compared>& row
         judged_.push_back(std::move(now));
     else
         *before = std::move(now);
-    if (judged_.size() < references_) return;
     const double interval = widest(judged_);
-    if (turn_.count > 1 || interval > (printed_ ? *printed_ / 2 : kTelling)) return;
+    if (turn_.count > 1 || interval > (printed_judges_ == judged_.size() ? printed_ / 2 : kTelling)) return;
     if (line_.left_s().value_or(0) < kLongS) return;
+    printed_judges_ = judged_.size();
     printed_ = interval;
     line_.print(shares_so_far(rows, judged_));
 }

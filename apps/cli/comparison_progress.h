@@ -26,8 +26,7 @@ struct JudgedShares {
 class ComparisonProgress {
   public:
     /// Of several comparisons in turn, the line shows how much of all is done, and shares are not printed.
-    ComparisonProgress(ComparisonTurn turn, const ComparisonSettings& settings)
-        : turn_(std::move(turn)), references_(settings.second ? 2 : 1), line_(turn_.what, 0) {}
+    explicit ComparisonProgress(ComparisonTurn turn) : turn_(std::move(turn)), line_(turn_.what, 0) {}
 
     /// Valid as long as this object.
     [[nodiscard]] ComparisonHooks hooks();
@@ -37,11 +36,11 @@ class ComparisonProgress {
     void keep(JudgedShares now, const std::vector<Compared>& rows);
 
     ComparisonTurn turn_;
-    size_t references_;
     std::string best_;
     Progress line_;
     std::vector<JudgedShares> judged_;  ///< the latest of each reference
-    std::optional<double> printed_;     ///< the widest interval when shares were last printed
+    size_t printed_judges_ = 0;         ///< references whose shares were last printed
+    double printed_ = 0;                ///< their widest interval then
     bool says_stopped_ = false;
 };
 

@@ -46,10 +46,6 @@ EffectReferenceSettings reference_settings(const ComparisonSettings& settings, I
     return wanted;
 }
 
-const Image& second_effect_of(const Compared& row) {
-    return row.second_effect ? *row.second_effect : row.effect;
-}
-
 // `remade`: the effect with all bakes of the pose, where `effect` has some of the rest pose.
 Result<Judgement> judgement_of(const Image& effect, const EffectReference& reference,
                                const Comparison& comparison, const Image* remade) {
@@ -75,8 +71,8 @@ Result<void> judge(const Comparison& comparison, const Scene& scene, Compared& r
     if (!first) return failed(first.error());
     row.first = std::move(*first);
     if (comparison.second) {
-        Result<Judgement> second = judgement_of(second_effect_of(row), *comparison.second, comparison,
-                                                remade ? &second_effect_of(*remade) : nullptr);
+        Result<Judgement> second = judgement_of(row.effect_of_second(), *comparison.second, comparison,
+                                                remade ? &remade->effect_of_second() : nullptr);
         if (!second) return failed(second.error());
         row.second = std::move(*second);
     }
@@ -141,8 +137,10 @@ void guess_times(ComparisonWork& work, size_t contestants) {
     const ComparisonSettings& s = work.settings;
     const double pixels = double(s.width) * s.height, points = pixels * s.grid * s.grid,
                  rows = double(contestants * (1 + s.rest_bakes.size())), references = s.second ? 2 : 1;
-    work.estimate.set_left(Part::first_samples, references * kFirstS);
-    work.estimate.set_left(Part::pictures, rows * points / kPicturePointsPerS);
+    work.estimate.set_left(Part::first_samples, kFirstS);
+    work.estimate.set_left(Part::pictures, double(contestants) * points / kPicturePointsPerS);
+    work.estimate.set_left(Part::second_samples, (references - 1) * kFirstS);
+    work.estimate.set_left(Part::second_pictures, rows * points / kPicturePointsPerS);
     work.estimate.set_left(Part::frames, double(contestants) * (s.frames > 0 ? s.frames + 1 : 0) * kFrameS);
     work.estimate.set_left(Part::unscattered, pixels / kUnscatteredPixelsPerS);
     work.estimate.set_left(Part::references, references * kReferenceS);
@@ -151,13 +149,13 @@ void guess_times(ComparisonWork& work, size_t contestants) {
 
 // The shares of all rows, of a reference so far.
 void report_shares(const ComparisonWork& work, size_t reference) {
-    if (!work.hooks.shares) return;
     const Comparison& comparison = work.comparison;
+    if (!work.hooks.shares || comparison.rows.empty()) return;
     const Integrator integrator = work.integrator(reference);
     std::vector<CapturedShare> shares;
     for (const Compared& row : comparison.rows) {
         const Result<Captured> share =
-            captured(reference == 1 ? second_effect_of(row) : row.effect,
+            captured(reference == 1 ? row.effect_of_second() : row.effect,
                      work.references[reference].so_far().effect, comparison.masks.skin);
         if (!share) return;  // judge() names it
         shares.push_back(share->all);
@@ -169,23 +167,17 @@ std::string reference_name(const ComparisonWork& work, size_t reference) {
     return "reference " + std::string(judge_name(work.integrator(reference)));
 }
 
-// The first samples of all references, whose skin the techniques are drawn for.
-Result<void> begin_references(ComparisonWork& work) {
-    const size_t count = work.settings.second ? 2 : 1;
-    for (size_t i = 0; i < count; ++i) {
-        const auto done = [&](double share, bool) {
-            work.estimate.advance(Part::first_samples, (double(i) + share) / double(count));
-            work.show(reference_name(work, i) + ", first samples");
-        };
-        DERMIS_TRY_ASSIGN(
-            EffectReferenceMaker begun,
-            EffectReferenceMaker::begin(work.scene, reference_settings(work.settings, work.integrator(i)),
-                                        {.done = done, .stop = work.hooks.stop}));
-        work.references.push_back(std::move(begun));
-    }
-    work.comparison.integrator = work.settings.reference.integrator;
-    work.comparison.second_integrator = work.settings.second;
-    work.estimate.set_left(Part::references, work.references_left_s());
+// The first samples of a reference, whose skin the techniques are drawn for.
+Result<void> begin_reference(ComparisonWork& work, size_t i, Part part) {
+    const auto done = [&](double share, bool) {
+        work.estimate.advance(part, share);
+        work.show(reference_name(work, i) + ", first samples");
+    };
+    DERMIS_TRY_ASSIGN(
+        EffectReferenceMaker begun,
+        EffectReferenceMaker::begin(work.scene, reference_settings(work.settings, work.integrator(i)),
+                                    {.done = done, .stop = work.hooks.stop}));
+    work.references.push_back(std::move(begun));
     return {};
 }
 
@@ -247,30 +239,37 @@ PictureSettings picture_settings(const ComparisonSettings& settings) {
             .penumbra_mm = settings.reference.lighting.penumbra_mm};
 }
 
-// The row of a technique, drawn by a maker whose renderer may have bakes of the rest pose.
-Result<Compared> drawn_row(PictureMaker& maker, PictureMaker& drawn_by, const Contestant& contestant,
-                           const ComparisonSettings& settings, Integrator integrator) {
-    const Contestant first = judged_by(integrator, contestant),
-                     second = judged_by(settings.second.value_or(integrator), contestant);
-    DERMIS_TRY_ASSIGN(TechniquePictures pictures, maker.make(first, drawn_by));
-    Compared row{.contestant = contestant,
-                 .radiance = std::move(pictures.radiance),
-                 .effect = std::move(pictures.effect)};
-    if (second.values == first.values) return row;
-    DERMIS_TRY_ASSIGN(TechniquePictures beside, maker.make(second, drawn_by));
-    row.second_effect = std::move(beside.effect);
-    return row;
+// The row of a technique as the first reference judges it, drawn by a maker whose renderer may have bakes of
+// the rest pose.
+Result<Compared> first_row(PictureMaker& maker, PictureMaker& drawn_by, const Contestant& contestant,
+                           Integrator integrator) {
+    DERMIS_TRY_ASSIGN(TechniquePictures pictures, maker.make(judged_by(integrator, contestant), drawn_by));
+    return Compared{.contestant = contestant,
+                    .radiance = std::move(pictures.radiance),
+                    .effect = std::move(pictures.effect)};
+}
+
+// The effect that the second reference judges, where it is another.
+Result<void> add_second_effect(PictureMaker& maker, PictureMaker& drawn_by, const ComparisonWork& work,
+                               Compared& row) {
+    if (work.references.size() < 2) return {};
+    const Contestant second = judged_by(work.integrator(1), row.contestant);
+    if (second.values == judged_by(work.integrator(0), row.contestant).values) return {};
+    DERMIS_TRY_ASSIGN(TechniquePictures pictures, maker.make(second, drawn_by));
+    row.second_effect = std::move(pictures.effect);
+    return {};
 }
 
 bool same_pictures(const Compared& a, const Compared& b) {
-    return a.radiance.bytes == b.radiance.bytes && second_effect_of(a).bytes == second_effect_of(b).bytes;
+    return a.radiance.bytes == b.radiance.bytes && a.effect_of_second().bytes == b.effect_of_second().bytes;
 }
 
-// How many pictures are drawn before this one, of all.
-void show_picture(ComparisonWork& work, size_t drawn, size_t contestants, const std::string& name) {
-    const double all = double(contestants * (1 + work.settings.rest_bakes.size()));
-    work.estimate.advance(Part::pictures, double(drawn) / all);
-    work.show(name);
+// How many pictures are drawn before this one, of all of this part.
+Result<void> show_picture(ComparisonWork& work, Part part, size_t drawn, size_t all,
+                          const Contestant& contestant) {
+    work.estimate.advance(part, double(drawn) / double(all));
+    work.show(contestant.name());
+    return work.cancelled() ? Result<void>(Error{"stopped"}) : Result<void>();
 }
 
 // A row of each technique and of each of the settings' rest_bakes that changes its picture.
@@ -279,6 +278,7 @@ Result<void> add_rest_bakes(gpu::Device& device, const Catalog& catalog,
                             ComparisonWork& work) {
     const ComparisonSettings& settings = work.settings;
     Comparison& comparison = work.comparison;
+    const size_t all = contestants.size() * (1 + settings.rest_bakes.size());
     size_t drawn = contestants.size();
     for (const RestBakes& bakes : settings.rest_bakes) {
         Scene baked = work.scene;
@@ -291,10 +291,9 @@ Result<void> add_rest_bakes(gpu::Device& device, const Catalog& catalog,
             if (contestant.technique->is_baseline) continue;
             contestant.settings +=
                 (contestant.settings.empty() ? "rest=" : ",rest=") + rest_bakes_text(bakes);
-            show_picture(work, drawn++, contestants.size(), contestant.name());
-            if (work.cancelled()) return Error{"stopped"};
-            DERMIS_TRY_ASSIGN(Compared row,
-                              drawn_row(maker, drawn_by, contestant, settings, comparison.integrator));
+            DERMIS_TRY(show_picture(work, Part::second_pictures, drawn++, all, contestant));
+            DERMIS_TRY_ASSIGN(Compared row, first_row(maker, drawn_by, contestant, comparison.integrator));
+            DERMIS_TRY(add_second_effect(maker, drawn_by, work, row));
             row.remade = i;
             if (!same_pictures(row, comparison.rows[i])) comparison.rows.push_back(std::move(row));
         }
@@ -355,26 +354,71 @@ Result<void> add_pictures(PictureMaker& maker, const Technique& baseline, const 
     return {};
 }
 
-// All pictures, the masks, and the shares by the first samples.
-Result<void> draw_techniques(gpu::Device& device, Renderer& renderer, const Catalog& catalog,
-                             const std::vector<Contestant>& contestants, ComparisonWork& work) {
+// The techniques' pictures and the masks; the first shares by the first reference.
+Result<void> draw_techniques(PictureMaker& maker, const std::vector<Contestant>& contestants,
+                             ComparisonWork& work) {
     Comparison& comparison = work.comparison;
-    const ComparisonSettings& settings = work.settings;
-    DERMIS_TRY_ASSIGN(const Technique* baseline, find_baseline(catalog.techniques));
-    PictureMaker maker(renderer, *baseline, picture_settings(settings));
     for (const Contestant& contestant : contestants) {
-        show_picture(work, comparison.rows.size(), contestants.size(), contestant.name());
-        if (work.cancelled()) return Error{"stopped"};
-        DERMIS_TRY_ASSIGN(Compared row, drawn_row(maker, maker, contestant, settings, comparison.integrator));
+        DERMIS_TRY(
+            show_picture(work, Part::pictures, comparison.rows.size(), contestants.size(), contestant));
+        DERMIS_TRY_ASSIGN(Compared row, first_row(maker, maker, contestant, comparison.integrator));
         comparison.rows.push_back(std::move(row));
     }
-    DERMIS_TRY(add_rest_bakes(device, catalog, contestants, maker, work));
-    if (settings.exact) DERMIS_TRY(add_exact(maker, *baseline, work.scene, settings, comparison));
     DERMIS_TRY_ASSIGN(comparison.masks, maker.masks(work.references[0].so_far().skin));
-    DERMIS_TRY(add_pictures(maker, *baseline, settings, comparison));
-    work.estimate.advance(Part::pictures, 1);
-    for (size_t i = 0; i < work.references.size(); ++i) report_shares(work, i);
+    report_shares(work, 0);
     return {};
+}
+
+// What the second reference judges, and the rows that are no techniques.
+Result<void> draw_others(gpu::Device& device, const Catalog& catalog, PictureMaker& maker,
+                         const std::vector<Contestant>& contestants, ComparisonWork& work) {
+    Comparison& comparison = work.comparison;
+    const ComparisonSettings& settings = work.settings;
+    const size_t all = contestants.size() * (1 + settings.rest_bakes.size());
+    for (size_t i = 0; i < contestants.size(); ++i) {
+        DERMIS_TRY(show_picture(work, Part::second_pictures, i, all, contestants[i]));
+        DERMIS_TRY(add_second_effect(maker, maker, work, comparison.rows[i]));
+    }
+    DERMIS_TRY(add_rest_bakes(device, catalog, contestants, maker, work));
+    if (settings.exact) DERMIS_TRY(add_exact(maker, maker.baseline(), work.scene, settings, comparison));
+    DERMIS_TRY(add_pictures(maker, maker.baseline(), settings, comparison));
+    work.estimate.advance(Part::second_pictures, 1);
+    const bool more = comparison.rows.size() > contestants.size();
+    for (size_t i = more ? 0 : 1; i < work.references.size(); ++i) report_shares(work, i);
+    return {};
+}
+
+// The first samples of the second reference. Stopped before they are there, the first judges alone.
+Result<void> begin_second(ComparisonWork& work) {
+    if (!work.settings.second) return {};
+    const Result<void> begun = begin_reference(work, 1, Part::second_samples);
+    if (begun) {
+        work.comparison.second_integrator = work.settings.second;
+        return {};
+    }
+    if (!work.stopped() || work.cancelled()) return begun;
+    work.comparison.warnings.push_back("stopped before the " + reference_name(work, 1) +
+                                       " had samples: without its shares");
+    return {};
+}
+
+// Noise over the effect at which shares say something: before it is reached, what says nothing of them waits.
+constexpr double kFirstNoise = 0.5;
+
+// From the first samples to the first useful shares by both references.
+Result<void> begin_comparison(gpu::Device& device, Renderer& renderer, const Catalog& catalog,
+                              const std::vector<Contestant>& contestants, ComparisonWork& work) {
+    work.comparison.integrator = work.settings.reference.integrator;
+    DERMIS_TRY_ASSIGN(const Technique* baseline, find_baseline(catalog.techniques));
+    PictureMaker maker(renderer, *baseline, picture_settings(work.settings));
+    DERMIS_TRY(begin_reference(work, 0, Part::first_samples));
+    DERMIS_TRY(draw_techniques(maker, contestants, work));
+    const double noise = std::max(kFirstNoise, work.settings.noise);
+    DERMIS_TRY(refine_references(work, noise));
+    DERMIS_TRY(begin_second(work));
+    DERMIS_TRY(draw_others(device, catalog, maker, contestants, work));
+    work.estimate.set_left(Part::references, work.references_left_s());
+    return refine_references(work, noise);
 }
 
 // Times the techniques, which are the first rows. The rows of other renderers' pictures have no known cost.
@@ -427,11 +471,7 @@ Result<Comparison> compare_techniques(gpu::Device& device, Renderer& renderer, c
     ComparisonWork work{scene, own, hooks};
     work.comparison.device = device.info().name;
     guess_times(work, contestants.size());
-    DERMIS_TRY(begin_references(work));
-    DERMIS_TRY(draw_techniques(device, renderer, catalog, contestants, work));
-    // Useful shares before what says nothing of them.
-    constexpr double kFirstNoise = 0.5;
-    DERMIS_TRY(refine_references(work, std::max(kFirstNoise, settings.noise)));
+    DERMIS_TRY(begin_comparison(device, renderer, catalog, contestants, work));
     DERMIS_TRY(time_techniques(renderer, contestants, work));
     for (const std::string& warning : renderer.warnings()) work.comparison.warnings.push_back(warning);
     DERMIS_TRY(make_unscattered(work, hooks.stop));
@@ -439,46 +479,6 @@ Result<Comparison> compare_techniques(gpu::Device& device, Renderer& renderer, c
     if (work.cancelled()) return Error{"stopped"};
     DERMIS_TRY(judge_all(work));
     return std::move(work.comparison);
-}
-
-const Judgement* judgement_by(Integrator integrator, const Comparison& comparison, const Compared& row) {
-    if (comparison.integrator == integrator) return &row.first;
-    return comparison.second_integrator == integrator && row.second ? &*row.second : nullptr;
-}
-
-const Image* judged_effect(Integrator integrator, const Comparison& comparison, const Compared& row) {
-    if (comparison.integrator == integrator) return &row.effect;
-    return comparison.second_integrator == integrator ? &second_effect_of(row) : nullptr;
-}
-
-std::string_view judge_name(Integrator integrator) {
-    return integrator == Integrator::walk ? "walk" : "surface";
-}
-
-std::vector<ScoreRow> score_rows(const std::string& scene, const Comparison& comparison) {
-    std::vector<ScoreRow> rows;
-    const auto share_by = [&](Integrator integrator, const Compared& row) {
-        const Judgement* found = judgement_by(integrator, comparison, row);
-        return found ? std::optional(found->captured) : std::nullopt;
-    };
-    const auto change_by = [&](Integrator integrator, const Compared& row) {
-        const Judgement* found = judgement_by(integrator, comparison, row);
-        return found ? found->change : std::nullopt;
-    };
-    for (const Compared& row : comparison.rows)
-        rows.push_back({.scene = scene,
-                        .technique = row.contestant.technique->id,
-                        .settings = row.contestant.settings,
-                        .walk = share_by(Integrator::walk, row),
-                        .surface = share_by(Integrator::surface, row),
-                        .scores = row.scores,
-                        .time_ms = row.cost.time_ms,
-                        .bytes = row.cost.bytes(),
-                        .time_ratio = row.cost.time_ratio,
-                        .reference_rmse = comparison.reference_rmse,
-                        .walk_change = change_by(Integrator::walk, row),
-                        .surface_change = change_by(Integrator::surface, row)});
-    return rows;
 }
 
 }  // namespace dermis::inline judge

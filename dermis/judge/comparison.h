@@ -89,6 +89,9 @@ struct Compared {
     std::optional<Judgement> second;  ///< by ComparisonSettings::second
     Scores scores;                    ///< against the first
     TechniqueCost cost;
+
+    /// The effect that the second integrator judges.
+    [[nodiscard]] const Image& effect_of_second() const { return second_effect ? *second_effect : effect; }
 };
 
 struct Comparison {
@@ -106,16 +109,16 @@ struct Comparison {
     std::string device;
 };
 
-/// The references' first samples are made first, then the techniques' pictures and the first shares, then
-/// timed frames and the rest of the references, the noisier one first.
+/// First come the samples of the first reference, the techniques' pictures and their first shares, then the
+/// same of the second, then timed frames and the rest of the references, the noisier one first.
 struct ComparisonHooks {
     /// The share of all the work that is done, by estimated time, and what is in work. Never falls.
     std::function<void(double done, const std::string& name)> progress;
     /// Once the techniques are drawn, and after each step of a reference: the share of each row so far.
     std::function<void(Integrator, const std::vector<Compared>& rows, const std::vector<CapturedShare>&)>
         shares;
-    /// Ends references and timed frames early; what there is is judged. Set before the first samples are
-    /// there: an error.
+    /// Ends references and timed frames early; what there is is judged. Set before the first reference has
+    /// samples: an error; before the second has: without the second.
     const std::atomic<bool>* stop = nullptr;
     /// Ends everything with an error.
     const std::atomic<bool>* cancel = nullptr;

@@ -175,6 +175,22 @@ TEST_F(Comparisons, a_reference_that_is_stopped_is_judged_with_what_it_has_and_g
     EXPECT_FALSE(compare_techniques(device(), built_in_catalog(), scene, list, settings, hooks));
 }
 
+TEST_F(Comparisons, stopped_before_the_second_reference_has_samples_it_is_judged_by_the_first_alone) {
+    ComparisonSettings settings = quick();
+    settings.second = settings.reference.integrator;
+    settings.reference.integrator = Integrator::walk;
+    std::atomic<bool> stop = false;
+    const ComparisonHooks hooks{.shares = [&](Integrator, const std::vector<Compared>&,
+                                              const std::vector<CapturedShare>&) { stop = true; },
+                                .stop = &stop};
+    const auto made = compare_techniques(device(), built_in_catalog(), load("builtin:spheres"),
+                                         contestants("lambert,wrap"), settings, hooks);
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_FALSE(made->second || made->second_integrator || made->rows[1].second);
+    EXPECT_GT(made->rows[1].first.captured.all.effect_rms, 0);
+    EXPECT_THAT(made->warnings, Contains(HasSubstr("without its shares")));
+}
+
 TEST_F(Comparisons, a_finer_reference_of_another_run_is_taken_as_it_is) {
     const Scene scene = load("builtin:spheres");
     ComparisonSettings fine = quick(), coarse = quick();

@@ -57,7 +57,7 @@ fs::path report_path(const CompareOptions& options, const ComparedScenes& scenes
 
 Result<Comparison> compare(gpu::Device& device, const SubjectCase& one, const std::string& prefix,
                            const std::vector<Contestant>& contestants, const ComparisonSettings& settings) {
-    ComparisonProgress progress({.what = prefix}, settings);
+    ComparisonProgress progress({.what = prefix});
     return compare_techniques(device, built_in_catalog(), one.scene, contestants, settings, progress.hooks());
 }
 
