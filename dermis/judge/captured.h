@@ -1,16 +1,19 @@
 #pragma once
 // Captured share: how much of what scattering does to a picture a technique does too.
 //
-//     S = S_t - L_t     effect of scattering: the reference with the skin's profile less the reference of
-//     width 0 T = T_r - L_r     effect of the technique: its picture less the baseline's, by the same
-//     renderer share = 1 - sqrt((<|T - S|^2> - n^2) / (<|S|^2> - n^2))
+//     S = S_t - L_t    effect of scattering: the reference with the skin's profile, less that of width 0
+//     T = T_r - L_r    effect of the technique: its picture less the baseline's, by the same renderer
 //
-// <> is the mean over pixels and channels, n^2 the variance of S. the baseline has 0, the reference 1, a
-// technique that does harm less than 0; what both renderers get wrong cancels in the differences.
+//     share = 1 - sqrt((<|T - S|^2> - n^2) / (<|S|^2> - n^2))
 //
-// The reference comes in two independent halves, S_a and S_b, of equal size. With S = (S_a + S_b) / 2 and n^2
-// =
-// <|S_a - S_b|^2> / 4 both brackets are exactly
+// <> is the mean over pixels and channels, n^2 the variance of S. The baseline has 0, the reference 1, a
+// technique that does harm less than 0. What both renderers get wrong cancels in the differences.
+//
+// The reference comes in two independent halves S_a and S_b of equal size. With S = (S_a + S_b) / 2 and
+//
+//     n^2 = <|S_a - S_b|^2> / 4
+//
+// both brackets are exactly
 //
 //     <|T - S|^2> - n^2 = <(T - S_a) (T - S_b)>        <|S|^2> - n^2 = <S_a S_b>
 //
