@@ -24,17 +24,6 @@ void add_unity_words(const PackageInput& input, Words& words) {
     words["guid_of_table"] = guid_of(kTable);
     // The first version whose reader keeps exactly eight sets of texture coordinates; a head has six.
     words["dependencies"] = input.head.empty() ? "" : "\"com.unity.cloud.gltfast\": \"6.14.1\"";
-    std::string offsets, weights;
-    for (const ShadowPlace& place : input.shadow_places.all) {
-        const Vec3 &at = place.offset_mm, &weight = place.weight;
-        const std::string_view separator = offsets.empty() ? "" : ",\n    ";
-        offsets += fmt::format("{}float4({:.5g}, {:.5g}, {:.5g}, {:.5g})", separator, at.x, at.y, at.z,
-                               place.penumbra);
-        weights += fmt::format("{}float3({:.5g}, {:.5g}, {:.5g})", separator, weight.x, weight.y, weight.z);
-    }
-    words["shadow_place_offsets"] = offsets;
-    words["shadow_place_weights"] = weights;
-    words["shadow_place_count"] = std::to_string(input.shadow_places.all.size());
 }
 
 // The importer's settings are of the kind of file; scene.json is a text, package.json is not.
@@ -106,6 +95,7 @@ const std::vector<Engine>& all_engines() {
          .picture_path = "Documentation~/picture.png",
          .head_path = kUnityHead,
          .head_format = {.map_files = true, .ambient_probe = true},
+         .hlsl_path = kUnityHead,
          .table_path = kTable,
          .v_origin = VOrigin::bottom,
          .add_words = add_unity_words,
@@ -114,6 +104,10 @@ const std::vector<Engine>& all_engines() {
         {.name = "unreal",
          .texts = {{"DermisSkin/Shaders/Skin.ush", shading::Language::hlsl}},
          .license_path = "DermisSkin/LICENSE",
+         .head_path = "DermisSkin/Head/",
+         .head_format = {.map_files = true, .still_maps = true},
+         .hlsl_path = "DermisSkin/Shaders/",
+         .hlsl_extension = ".ush",
          .table_path = "DermisSkin/Resources/SkinTable.exr",
          .v_origin = VOrigin::top},
         // Godot 4: the .import and .tres files are text and come from engines/godot.

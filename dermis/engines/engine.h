@@ -25,9 +25,12 @@ struct Engine {
 
     std::string_view license_path = "LICENSE";
     std::string_view picture_path = "picture.png";
-    std::string_view head_path = {};  ///< the folder of a head, with '/' behind it; empty: takes none
+    std::string_view head_path = {};  ///< the folder of a head, with '/' behind it
     HeadFormat head_format = {};
-    bool takes_scripts = false;        ///< the JavaScript of engines/common
+    bool takes_scripts = false;  ///< the JavaScript of engines/common
+    /// Where the HLSL of engines/common goes, which is a head's, and the extension that it gets; empty:
+    /// nowhere.
+    std::string_view hlsl_path = {}, hlsl_extension = ".hlsl";
     std::string_view table_path = {};  ///< the diffuse table, .exr or .dds; empty: none
     VOrigin v_origin = VOrigin::top;   ///< where the engine has v = 0 in a picture
     void (*add_words)(const PackageInput&, Words&) = nullptr;  ///< beyond the common ones

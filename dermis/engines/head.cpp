@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dermis/engines/engine.h"
+#include "dermis/engines/head_maps.h"
 #include "dermis/engines/web/parts.h"
 #include "dermis/image/io.h"
 #include "dermis/mesh/surface_frame.h"
@@ -33,10 +34,10 @@ Vec3 vertex_tangent(Vec3 n) {
 }
 
 // Numbers of the vertices as pairs: head.h.
-Result<std::vector<std::vector<Vec2>>> vertex_numbers(const Mesh& mesh, const std::array<Vec3, 3>& weights) {
+Result<VertexNumbers> vertex_numbers(const Mesh& mesh, const std::array<Vec3, 3>& weights) {
     DERMIS_TRY_ASSIGN(const std::vector<Vec3> blurred, blurred_occlusions(mesh));
     const size_t count = mesh.positions_mm.size();
-    std::vector<std::vector<Vec2>> pairs(4, std::vector<Vec2>(count));
+    VertexNumbers pairs(4, std::vector<Vec2>(count));
     const Vec3 own_weight = Vec3{1, 1, 1} - weights[0] - weights[1] - weights[2];
     for (size_t v = 0; v < count; ++v) {
         const Vec3 n = mesh.normals[v], t = vertex_tangent(n), b = cross(n, t);
@@ -72,7 +73,7 @@ Vec4 frame_quaternion(Vec3 normal, Vec4 tangent) {
     return {q.x * scale, q.y * scale, q.z * scale, q.w * scale};
 }
 
-void add_frames(const Mesh& mesh, std::vector<std::vector<Vec2>>& numbers) {
+void add_frames(const Mesh& mesh, VertexNumbers& numbers) {
     std::vector<Vec2> xy, zw;
     for (size_t v = 0; v < mesh.normals.size(); ++v) {
         const Vec4 q = frame_quaternion(mesh.normals[v], mesh.tangents[v]);
@@ -192,6 +193,10 @@ Result<json> head_material_json(const SceneObject& object, size_t number, const 
 Result<std::optional<Rig>> rig_of_head(const HeadInput& input, const SceneObject& object, Mesh& mesh,
                                        Head& head) {
     if (object.motion.empty()) return std::optional<Rig>();
+    if (input.format.still_maps) {
+        head.warnings.push_back("'" + object.name + "' does not move in the engine: it has the scene's pose");
+        return std::optional<Rig>();
+    }
     if (!ScenePoser::can_pose(object)) {
         head.warnings.push_back("'" + object.name +
                                 "' does not move in the engine: it is subdivided or displaced");
@@ -209,7 +214,8 @@ Result<std::optional<Rig>> rig_of_head(const HeadInput& input, const SceneObject
     return rig;
 }
 
-Result<json> head_object_json(const HeadInput& input, size_t index, Head& head) {
+// Adds the mesh and its maps. `numbers`: the vertices' own, where they are not in the mesh.
+Result<json> head_object_json(const HeadInput& input, size_t index, Head& head, VertexNumbers& numbers) {
     const SceneObject& object = input.scene.objects[index];
     Mesh mesh = object.mesh;
     json materials = json::array();
@@ -230,14 +236,16 @@ Result<json> head_object_json(const HeadInput& input, size_t index, Head& head) 
         materials.push_back(std::move(made));
     }
     mesh.atlas_uvs = atlas_uvs_of(mesh);
-    DERMIS_TRY_ASSIGN(auto numbers, vertex_numbers(mesh, input.occlusion_weights));
+    DERMIS_TRY_ASSIGN(numbers, vertex_numbers(mesh, input.occlusion_weights));
     DERMIS_TRY_ASSIGN(const std::optional<Rig> rig, rig_of_head(input, object, mesh, head));
     if (rig) add_frames(mesh, numbers);
     for (json& material : materials) material["moves"] = rig.has_value();
-    DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, glb_bytes(mesh, {}, {}, numbers, rig ? &*rig : nullptr));
+    const std::span<const std::vector<Vec2>> in_mesh =
+        input.format.still_maps ? std::span<const std::vector<Vec2>>() : numbers;
+    DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, glb_bytes(mesh, {}, {}, in_mesh, rig ? &*rig : nullptr));
     const std::string path = fmt::format("object_{}.glb", index);
     head.files.push_back({path, std::move(bytes)});
-    return json{{"file", path}, {"name", object.name}, {"materials", materials}};
+    return json{{"file", path}, {"name", object.name}, {"box_mm", box_json(mesh)}, {"materials", materials}};
 }
 
 json head_light_json(const Light& light, bool casts_shadow) {
@@ -256,24 +264,38 @@ json head_light_json(const Light& light, bool casts_shadow) {
     return made;
 }
 
-json head_lights_json(const Scene& scene) {
+// With still_maps, adds the lights' maps.
+Result<json> head_lights_json(const HeadInput& input, Head& head) {
+    const Scene& scene = input.scene;
     json lights = json::array();
     const std::vector<int> shadow_maps = scene.shadow_maps();
-    for (size_t i = 0; i < scene.lights.size(); ++i)
-        lights.push_back(head_light_json(scene.lights[i], shadow_maps[i] >= 0));
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        const Light& light = scene.lights[i];
+        lights.push_back(head_light_json(light, shadow_maps[i] >= 0));
+        if (!input.format.still_maps) continue;
+        if (light.kind != LightKind::directional) {
+            head.warnings.push_back("light '" + light.name + "' does not light skin: it is not directional");
+        } else if (shadow_maps[i] >= 0) {
+            DERMIS_TRY_ASSIGN(lights.back()["shadow"],
+                              add_shadow_map(scene, light, fmt::format("shadow_{}.exr", i), head.files));
+        }
+    }
     return lights;
 }
 
-Result<void> add_png(Head& head, const std::string& path, const Image& image) {
-    DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, encode_image(".png", image));
+// By the extension: .png, .exr.
+Result<void> add_picture(Head& head, const std::string& path, const Image& image) {
+    DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, encode_image(path.substr(path.rfind('.')), image));
     head.files.push_back({path, std::move(bytes)});
     return {};
 }
 
-// The renderer's own three textures in 8 bits: head.h.
-Result<json> add_normals(const DiffusedNormals& normals, Head& head) {
+// The renderer's own three textures, of which red has 10 bits: head.h.
+Result<json> add_normals(const DiffusedNormals& normals, bool red_in_halves, Head& head) {
     const std::vector<gpu::TextureData> textures = diffused_normals_textures(normals);
-    Image red(normals.size, normals.size, 3, PixelFormat::u8), green = red, spread = red;
+    Image green(normals.size, normals.size, 3, PixelFormat::u8),
+        spread = green,
+        red(normals.size, normals.size, 3, red_in_halves ? PixelFormat::f16 : PixelFormat::u8);
     for (int y = 0; y < normals.size; ++y)
         for (int x = 0; x < normals.size; ++x) {
             const size_t at = size_t(y) * size_t(normals.size) + size_t(x);
@@ -287,10 +309,11 @@ Result<json> add_normals(const DiffusedNormals& normals, Head& head) {
                 spread.set(x, y, c, float(textures[2].bytes[2 * at + size_t(c)]) / 255);
             spread.set(x, y, 2, float(textures[1].bytes[4 * at + 3]) / 255);
         }
-    DERMIS_TRY(add_png(head, "normals_red.png", red));
-    DERMIS_TRY(add_png(head, "normals_green.png", green));
-    DERMIS_TRY(add_png(head, "normals_spread.png", spread));
-    return json{"normals_red.png", "normals_green.png", "normals_spread.png"};
+    const std::string red_name = red_in_halves ? "normals_red.exr" : "normals_red.png";
+    DERMIS_TRY(add_picture(head, red_name, red));
+    DERMIS_TRY(add_picture(head, "normals_green.png", green));
+    DERMIS_TRY(add_picture(head, "normals_spread.png", spread));
+    return json{red_name, "normals_green.png", "normals_spread.png"};
 }
 
 Result<json> add_thickness(const Image& thickness_mm, Head& head) {
@@ -299,7 +322,7 @@ Result<json> add_thickness(const Image& thickness_mm, Head& head) {
         for (int x = 0; x < image.width; ++x)
             for (int c = 0; c < 3; ++c)
                 image.set(x, y, c, std::clamp(thickness_mm.at(x, y, 0) / kThicknessMaxMm, 0.0f, 1.0f));
-    DERMIS_TRY(add_png(head, "thickness.png", image));
+    DERMIS_TRY(add_picture(head, "thickness.png", image));
     return json{{"file", "thickness.png"}, {"max_mm", kThicknessMaxMm}};
 }
 
@@ -336,7 +359,7 @@ json ambient_probe(const EnvironmentLight& light, const Environment& environment
     return numbers;
 }
 
-Result<json> add_panorama(const Environment& environment, bool with_probe, Head& head) {
+Result<json> add_panorama(const Environment& environment, const HeadFormat& format, Head& head) {
     if (environment.kind == EnvironmentKind::none) return json();
     DERMIS_TRY_ASSIGN(const Image panorama, load_panorama(environment));
     DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, encode_image(".hdr", panorama));
@@ -348,7 +371,10 @@ Result<json> add_panorama(const Environment& environment, bool with_probe, Head&
                  {"intensity", to_json(environment.intensity)},
                  {"radiance_sh", harmonics},
                  {"yaw_rad", to_json(environment.yaw_rad)}};
-    if (with_probe) made["ambient_probe"] = ambient_probe(light, environment);
+    if (format.ambient_probe) made["ambient_probe"] = ambient_probe(light, environment);
+    if (format.still_maps) {
+        DERMIS_TRY_ASSIGN(made["ambient_terms"], ambient_terms(environment));
+    }
     return made;
 }
 
@@ -365,10 +391,11 @@ Result<Head> make_head(const HeadInput& input) {
     const Scene& scene = input.scene;
     Head head;
     json objects = json::array();
+    std::vector<VertexNumbers> numbers(scene.objects.size());
     bool any_skin = false;
     for (size_t i = 0; i < scene.objects.size(); ++i) {
         any_skin = any_skin || std::ranges::count(scene.objects[i].classes, MaterialClass::skin) > 0;
-        DERMIS_TRY_ASSIGN(json object, head_object_json(input, i, head));
+        DERMIS_TRY_ASSIGN(json object, head_object_json(input, i, head, numbers[i]));
         objects.push_back(std::move(object));
     }
     if (!any_skin) return Error{scene.name + " has no skin to export"};
@@ -383,11 +410,14 @@ Result<Head> make_head(const HeadInput& input) {
         {"exposure", to_json(std::exp2(scene.exposure_ev))},
         {"tone_map", tone_map_names()[size_t(scene.tone_map)]},
         {"penumbra_mm", to_json(DrawSettings{}.penumbra_mm)},
-        {"lights", head_lights_json(scene)},
         {"objects", objects}};
-    DERMIS_TRY_ASSIGN(made["environment"], add_panorama(scene.environment, input.format.ambient_probe, head));
+    DERMIS_TRY_ASSIGN(made["lights"], head_lights_json(input, head));
+    if (input.format.still_maps) {
+        DERMIS_TRY_ASSIGN(made["vertex_maps"], add_vertex_maps(scene, numbers, head.files));
+    }
+    DERMIS_TRY_ASSIGN(made["environment"], add_panorama(scene.environment, input.format, head));
     if (input.normals.size > 0) {
-        DERMIS_TRY_ASSIGN(made["baked_normals"], add_normals(input.normals, head));
+        DERMIS_TRY_ASSIGN(made["baked_normals"], add_normals(input.normals, input.format.still_maps, head));
     }
     if (!input.thickness_mm.empty()) {
         DERMIS_TRY_ASSIGN(made["thickness"], add_thickness(input.thickness_mm, head));

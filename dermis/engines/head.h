@@ -26,6 +26,10 @@
 // With ambient_probe, environment.ambient_probe of scene.json has 27 numbers: nine coefficients of Unity's
 // SphericalHarmonicsL2, of each red, green and blue, of the irradiance over pi in a world whose x is
 // mirrored.
+//
+// With still_maps, the meshes have none of the numbers above from TEXCOORD_2 on: vertex_maps of scene.json
+// names the maps that have them (head_maps.h). A directional light has the map of its shadow, and
+// environment.ambient_terms has nine colours.
 
 #include <array>
 #include <string>

@@ -119,6 +119,21 @@ std::string shadow_places_text(std::span<const ShadowPlace> places) {
     return text;
 }
 
+// The same as the initialisers of two arrays in HLSL.
+void add_shadow_place_words(std::span<const ShadowPlace> places, Words& words) {
+    std::string offsets, weights;
+    for (const ShadowPlace& place : places) {
+        const Vec3 &at = place.offset_mm, &weight = place.weight;
+        const std::string_view separator = offsets.empty() ? "" : ",\n    ";
+        offsets += fmt::format("{}float4({:.5g}, {:.5g}, {:.5g}, {:.5g})", separator, at.x, at.y, at.z,
+                               place.penumbra);
+        weights += fmt::format("{}float3({:.5g}, {:.5g}, {:.5g})", separator, weight.x, weight.y, weight.z);
+    }
+    words["shadow_place_offsets"] = offsets;
+    words["shadow_place_weights"] = weights;
+    words["shadow_place_count"] = std::to_string(places.size());
+}
+
 // Shading languages do not take a whole number for a float.
 std::string decimal(double whole) {
     return to_text(whole) + ".0";
@@ -153,6 +168,7 @@ Words common_words(const PackageInput& input) {
                    {"table_height", std::to_string(kTableHeight)},
                    {"max_curvature_per_mm", decimal(kTableMaxCurvaturePerMm)}};
     words.merge(gain_words(input.gain));
+    add_shadow_place_words(input.shadow_places.all, words);
     return words;
 }
 
@@ -170,16 +186,23 @@ Result<std::vector<shading::Source>> printed_functions(const PackageInput& input
     return sources;
 }
 
+// Where a template of engines/common is in the package.
+std::string common_path(const Engine& engine, std::string_view path) {
+    path.remove_prefix(kCommonFolder.size());
+    if (engine.takes_scripts && path.ends_with(".js")) return std::string(path);
+    if (engine.hlsl_path.empty() || !path.ends_with(".hlsl")) return "";
+    path.remove_suffix(std::string_view(".hlsl").size());
+    return std::string(engine.hlsl_path).append(path).append(engine.hlsl_extension);
+}
+
 // Where a template is in the package; empty: it is not for this engine.
 std::string template_path(const Engine& engine, const PackageInput& input, std::string_view path) {
     const std::string folder = "engines/" + std::string(engine.name) + "/";
     if (path == "LICENSE") return std::string(engine.license_path);
-    if (engine.takes_scripts && path.starts_with(kCommonFolder) && path.ends_with(".js"))
-        return std::string(path.substr(kCommonFolder.size()));
-    if (!path.starts_with(folder)) return "";
-    path.remove_prefix(folder.size());
-    const bool for_head = !engine.head_path.empty() && path.starts_with(engine.head_path);
-    return for_head && input.head.empty() ? "" : std::string(path);
+    const bool is_common = path.starts_with(kCommonFolder);
+    if (!is_common && !path.starts_with(folder)) return "";
+    const std::string to = is_common ? common_path(engine, path) : std::string(path.substr(folder.size()));
+    return input.head.empty() && to.starts_with(engine.head_path) ? "" : to;
 }
 
 Result<void> add_templates(const Engine& engine, const PackageInput& input, std::vector<PackageFile>& files) {
@@ -231,16 +254,6 @@ std::vector<std::string> engine_names() {
 Result<void> check_engine(std::string_view name) {
     DERMIS_TRY(find_engine(name));
     return {};
-}
-
-Result<void> check_engine_takes_head(std::string_view name) {
-    DERMIS_TRY_ASSIGN(const Engine* engine, find_engine(name));
-    if (!engine->head_path.empty()) return {};
-    std::vector<std::string> able;
-    for (const Engine& other : all_engines())
-        if (!other.head_path.empty()) able.emplace_back(other.name);
-    return Error{"--engine " + std::string(name) + " takes no scene, only --profile; " + join(able, " and ") +
-                 " take one"};
 }
 
 HeadFormat head_format(std::string_view engine) {

@@ -56,6 +56,9 @@ struct HeadFormat {
     bool map_files = false;      ///< the maps of skin are files of their own, not in the GLB
     bool linear_keys = false;    ///< clips without cubic splines
     bool ambient_probe = false;  ///< scene.json has Unity's numbers for light from all around
+    /// The head stands still, numbers of its vertices are maps, and directional lights have maps of their
+    /// shadows: for an engine whose materials read neither vertices' numbers nor shadows.
+    bool still_maps = false;
 };
 
 struct PackageInput {
@@ -73,9 +76,6 @@ struct PackageInput {
 
 /// Success when there is such an engine. Error: an unknown name; the message has the closest known one.
 [[nodiscard]] Result<void> check_engine(std::string_view name);
-
-/// Success when the engine's package takes a head.
-[[nodiscard]] Result<void> check_engine_takes_head(std::string_view name);
 
 /// What its head holds beyond what every head does.
 [[nodiscard]] HeadFormat head_format(std::string_view engine);

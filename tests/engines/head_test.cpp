@@ -1,7 +1,7 @@
 // A scene's head in three.js and Babylon.js, in headless Chromium on WebGL 2 and WebGPU, held against the
-// reference beside Dermis' own picture; in Godot's web build, and for Unity by unity_head, against Dermis'
-// picture. Needs chromium, node, `npm ci` in tools/checks, for Godot what compile_test.cpp names; passed over
-// without them. Unity needs none of these.
+// reference beside Dermis' own picture; in Godot's web build, and for Unity and Unreal by unity_head and
+// unreal_head, against Dermis' picture. Needs chromium, node, `npm ci` in tools/checks, for Godot what
+// compile_test.cpp names; passed over without them. Unity needs none of these, Unreal python3.
 
 #include <gtest/gtest.h>
 
@@ -203,35 +203,38 @@ class GodotHead : public HeadPackage {
     }
 };
 
-// Unity cannot run here: unity_head draws with the package's own shaders.
-class UnityHead : public HeadPackage {
+// Unity and Unreal cannot run here: unity_head and unreal_head draw with the package's own shaders.
+class DrawnHead : public HeadPackage {
   protected:
-    void SetUp() override { export_unity(); }
-    void export_unity() {
+    void SetUp() override {
+        if (engine() == "unreal" && !has_program("python3")) GTEST_SKIP() << "no python3 here";
+        export_package();
+    }
+    void export_package() {
         const ProgramResult made =
-            shell(DERMIS_PROGRAM " export --engine unity " + scene_ + " -o " + path("package"));
+            shell(DERMIS_PROGRAM " export --engine " + engine() + " " + scene_ + " -o " + path("package"));
         ASSERT_EQ(made.exit_code, 0) << made.err;
     }
     ProgramResult draw_one(const std::string& name, const std::string& options) {
-        return shell(DERMIS_UNITY_HEAD " " + path("package") + " " + path(name + ".exr") +
-                     " --side 48 --points 3 " + options);
+        return shell(DERMIS_DRAWN_HEADS "/" + engine() + "_head " + path("package") + " " +
+                     path(name + ".exr") + " --side 48 --points 3 " + options);
     }
     Image drawn(const std::string& name, const std::string& options) {
         const ProgramResult result = draw_one(name, options);
         EXPECT_EQ(result.exit_code, 0) << result.err;
         return read(name);
     }
+};
+class MovingUnityHead : public DrawnHead {
+  protected:
+    void SetUp() override {}
     void expect_unity_motion(const std::string& moment) {
-        export_unity();
+        export_package();
         expect_motion(
             {drawn("rest", ""), drawn("rest_lambert", "--lambert"), drawn("moved", moment),
              drawn("moved_lambert", moment + " --lambert"), drawn("mistake", moment + " --mistake frames")},
             moment, "", 0.3);
     }
-};
-class MovingUnityHead : public UnityHead {
-  protected:
-    void SetUp() override {}
 };
 const auto kName = [](const auto& one) { return std::string(one.param); };
 INSTANTIATE_TEST_SUITE_P(, BrowserHead,
@@ -242,7 +245,7 @@ INSTANTIATE_TEST_SUITE_P(, MovingHeadPackage,
                          kName);
 INSTANTIATE_TEST_SUITE_P(, MovingFacePackage, testing::Values("godot"), kName);
 INSTANTIATE_TEST_SUITE_P(, GodotHead, testing::Values("godot"), kName);
-INSTANTIATE_TEST_SUITE_P(, UnityHead, testing::Values("unity"), kName);
+INSTANTIATE_TEST_SUITE_P(, DrawnHead, testing::Values("unity", "unreal"), kName);
 INSTANTIATE_TEST_SUITE_P(, MovingUnityHead, testing::Values("unity"), kName);
 
 const std::string kPreintegrated = "--technique preintegrated --set gain=";
@@ -370,7 +373,7 @@ TEST_P(GodotHead, has_the_renderers_effect_and_a_mistake_loses_it) {
     expect_effect(" --set shadow=plain", 0.33);
 }
 
-TEST_P(UnityHead, has_the_renderers_effect_and_a_mistake_loses_it) {
+TEST_P(DrawnHead, has_the_renderers_effect_and_a_mistake_loses_it) {
     for (const auto& [name, options] : {std::pair("lambert", "--lambert"),
                                         {"scattering", ""},
                                         {"gain", "--gain"},
@@ -380,15 +383,18 @@ TEST_P(UnityHead, has_the_renderers_effect_and_a_mistake_loses_it) {
         const ProgramResult drawn = draw_one(name, options);
         ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
     }
-    expect_effect("", 0.25);
+    expect_effect("", engine() == "unreal" ? 0.15 : 0.25);
 }
 
-// A map that the component does not bind is not bound here either.
-TEST_P(UnityHead, shows_a_map_that_the_script_leaves_out) {
-    ASSERT_EQ(draw_one("bound", "--lambert").exit_code, 0);
-    ASSERT_EQ(shell("sed -i '/Bind(skin, \"_BaseMap\"/d' " + path("package/Head/SkinHead.cs")).exit_code, 0);
-    ASSERT_EQ(draw_one("unbound", "--lambert").exit_code, 0);
-    EXPECT_GT(distance(read("unbound"), read("bound")), 0.3 * distance(read("bound"), Image(48, 48, 3)));
+// A map that the script does not bind is not bound here either.
+TEST_P(DrawnHead, shows_a_map_that_the_script_leaves_out) {
+    const Image bound = drawn("bound", "--lambert");
+    const std::string edit = engine() == "unity"
+                                 ? "sed -i '/Bind(skin, \"_BaseMap\"/d' " + path("package/Head/SkinHead.cs")
+                                 : "sed -i 's/(maps.get(\"albedo\"), COLOUR)/(None, COLOUR)/' " +
+                                       path("package/DermisSkin/Content/Python/dermis_head.py");
+    ASSERT_EQ(shell(edit).exit_code, 0);
+    EXPECT_GT(distance(drawn("unbound", "--lambert"), bound), 0.3 * distance(bound, Image(48, 48, 3)));
 }
 
 // Irradiance over pi of a turned environment, by the bands of Ramamoorthi and Hanrahan, against Unity's

@@ -175,7 +175,6 @@ Result<FileUse> files_of(const ExportOptions& options) {
         DERMIS_TRY(options.native ? check_native_engine(options.engine) : check_engine(options.engine));
         if (options.has_scene() && options.scene.name.empty())
             return Error{"--scene, --camera and --light need a SCENE"};
-        if (options.has_scene()) DERMIS_TRY(check_engine_takes_head(options.engine));
         files.outputs = {output / "README.md"};
         return files;
     }

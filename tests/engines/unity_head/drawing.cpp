@@ -4,15 +4,10 @@
 #include "engines/unity_head/drawing.h"
 
 #include <cmath>
-#include <cstring>
-#include <deque>
 #include <regex>
 
 #include "dermis/base/angle.h"
 #include "dermis/base/file.h"
-#include "dermis/base/process.h"
-#include "dermis/gpu/executor.h"
-#include "dermis/image/resample.h"
 #include "engines/unity_head/package.h"
 #include "support/temporary_directory.h"
 #include "test_paths.h"
@@ -22,10 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using namespace drawn_head;
 
 constexpr float kNear = 0.05f, kFar = 20;  // SkinHead.cs
 constexpr int kShadowSide = 2048;          // a new URP asset's
-constexpr const char* kPasses[] = {"head.vert", "head.frag", "shadow.vert", "shadow.frag"};
 
 Vec3 mirrored(const json& numbers) {
     return {-float(numbers[0]), float(numbers[1]), float(numbers[2])};
@@ -37,9 +32,9 @@ Vec4 row(Vec3 direction, float offset) {
     return {direction.x, direction.y, direction.z, offset};
 }
 
-// glslc, and the words of the package's passes.
+// The words of the package's passes.
 Result<std::vector<uint32_t>> compiled(const fs::path& package, const fs::path& scratch,
-                                       std::string_view name) {
+                                       const std::string& name) {
     const bool is_head = name.starts_with("head"), is_vertex = name.ends_with(".vert");
     const std::string entry = is_head     ? is_vertex ? "SkinHeadVertex" : "SkinHeadFragment"
                               : is_vertex ? "SkinShadowVertex"
@@ -47,47 +42,22 @@ Result<std::vector<uint32_t>> compiled(const fs::path& package, const fs::path& 
     const std::string text =
         is_head ? "#include \"SkinHeadForward.hlsl\"\n"
                 : "#include \"SkinHeadInput.hlsl\"\n#include \"../Runtime/SkinDepth.hlsl\"\n";
-    const fs::path source = scratch / "pass.hlsl", binary = scratch / "pass.spv", log = scratch / "log.txt";
-    DERMIS_TRY(write_text_file(source, text));
-    const std::vector<std::string> command = {
-        "glslc",
-        "-O",
-        "-g",
-        "-x",
-        "hlsl",
-        std::string("-fshader-stage=") + (is_vertex ? "vertex" : "fragment"),
-        "-fentry-point=main",
-        "-D" + entry + "=main",
-        "-fauto-bind-uniforms",
-        "-fauto-map-locations",
-        "-D_MAIN_LIGHT_SHADOWS",
-        "-I",
-        scratch.string(),
-        "-I",
-        (package / "Head").string(),
-        source.string(),
-        "-o",
-        binary.string()};
-    if (run_program(command, log) != 0) {
-        DERMIS_TRY_ASSIGN(const std::string said, read_text_file(log));
-        return Error{std::string(name) + ": " + said};
-    }
-    DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes, read_file(binary));
-    std::vector<uint32_t> words(bytes.size() / 4);
-    std::memcpy(words.data(), bytes.data(), bytes.size());
-    return words;
+    return compiled_hlsl(scratch, name, text,
+                         {"-D" + entry + "=main", "-D_MAIN_LIGHT_SHADOWS", "-I", scratch.string(), "-I",
+                          (package / "Head").string()});
 }
 
 gpu::Values camera_values(const json& settings) {
     const json& camera = settings["camera"];
     const Vec3 eye = metres(camera["eye_mm"]), forward = normalize(metres(camera["target_mm"]) - eye);
     const Vec3 right = normalize(cross(mirrored(camera["up"]), forward)), up = cross(forward, right);
-    const float scale = 1 / std::tan(0.5f * float(camera["vertical_fov_rad"])), depth = kFar / (kFar - kNear);
-    gpu::Values values = {{"stub_clip_0", row(right * scale, -dot(right, eye) * scale)},
-                          {"stub_clip_1", row(up * -scale, dot(up, eye) * scale)},  // Vulkan's y is down
-                          {"stub_clip_2", row(forward * depth, -dot(forward, eye) * depth - kNear * depth)},
-                          {"stub_clip_3", row(forward, -dot(forward, eye))},
-                          {"stub_eye", row(eye, 1)}};
+    gpu::Values values = view_values({.eye = eye,
+                                      .right = right,
+                                      .up = up,
+                                      .forward = forward,
+                                      .vertical_fov_rad = camera["vertical_fov_rad"],
+                                      .near = kNear,
+                                      .far = kFar});
     // The packing of SphericalHarmonicsL2 in URP's shaders.
     const json& probe = settings["environment"]["ambient_probe"];
     const char* const channels[] = {"r", "g", "b"};
@@ -134,19 +104,6 @@ gpu::Values light_camera(const gpu::Values& shadow, gpu::Values camera) {
     camera["stub_clip_3"] = Vec4{0, 0, 0, 1};
     return camera;
 }
-
-gpu::TextureData standard_picture(const std::string& name) {
-    const uint8_t all = name == "black" ? 0 : 255, side = name == "bump" ? 128 : all;
-    gpu::TextureData data = {.name = name};
-    for (const uint8_t value : {side, side, all, uint8_t(255)}) data.bytes.push_back(std::byte(value));
-    return data;
-}
-
-// Everything that the draws point to.
-struct Uploads {
-    std::deque<gpu::Geometry> meshes;
-    std::deque<gpu::Texture> textures;
-};
 
 Result<void> spoil(const std::string& mistake, Material& material, std::vector<Primitive>& primitives) {
     if (mistake.empty() || mistake == "srgb") return {};
@@ -210,13 +167,13 @@ Result<gpu::Geometry> uploaded(gpu::Device& device, const fs::path& package, con
     return gpu::Geometry::upload(device, primitive.material, streams, primitive.indices);
 }
 
-Result<std::vector<gpu::Draw>> head_draws(gpu::Device& device, const json& scene,
-                                          const DrawingSettings& settings, Uploads& uploads) {
+Result<std::vector<gpu::Draw>> head_draws(gpu::Device& device, const json& scene, const Settings& settings,
+                                          Uploads& uploads) {
     std::vector<gpu::Draw> draws;
     for (const json& object : scene["objects"]) {
-        DERMIS_TRY_ASSIGN(
-            std::vector<Primitive> primitives,
-            import_glb(settings.package / "Head" / std::string(object["file"]), settings.moment));
+        DERMIS_TRY_ASSIGN(std::vector<Primitive> primitives,
+                          import_glb(settings.package / "Head" / std::string(object["file"]),
+                                     {settings.clip, settings.time_s}));
         for (const json& surface : object["materials"]) {
             if (surface["class"] != "skin") continue;
             DERMIS_TRY_ASSIGN(Material material, make_material(settings.package, scene, surface));
@@ -243,32 +200,22 @@ Result<std::vector<gpu::Draw>> head_draws(gpu::Device& device, const json& scene
 }
 
 PassList passes(const json& settings) {
-    const json& background = settings["background_linear"];
     const Pass shadow = {.name = "shadow",
                          .kind = PassKind::geometry_screen,
-                         .vertex_shader = kPasses[2],
+                         .vertex_shader = "shadow.vert",
                          .depth = DepthTarget{.image = "shadow_map"},
                          .profile = 1};  // its block StubCamera is StubCamera@1
-    const Pass lit = {
-        .name = "lit",
-        .kind = PassKind::geometry_screen,
-        .shader = kPasses[1],
-        .vertex_shader = kPasses[0],
-        .reads = {{"_MainLightShadowmapTexture", "shadow_map"}},
-        .colors = {{.image = "radiance", .clear = {background[0], background[1], background[2], 1}}},
-        .depth = DepthTarget{.image = "depth"},
-        .cull = Cull::back};
-    return {.images = {{.name = "shadow_map",
-                        .format = ImageFormat::depth32f,
-                        .size = {kShadowSide, kShadowSide}},
-                       {.name = "depth", .format = ImageFormat::depth32f},
-                       {.name = "radiance", .format = ImageFormat::rgba32f}},
-            .passes = {shadow, lit}};
+    PassList list = head_pass(settings["background_linear"]);
+    list.passes.front().reads = {{"_MainLightShadowmapTexture", "shadow_map"}};
+    list.passes.insert(list.passes.begin(), shadow);
+    list.images.push_back(
+        {.name = "shadow_map", .format = ImageFormat::depth32f, .size = {kShadowSide, kShadowSide}});
+    return list;
 }
 
 }  // namespace
 
-Result<Image> draw_head(const DrawingSettings& settings) {
+Result<Image> draw_head(const Settings& settings) {
     DERMIS_TRY_ASSIGN(const std::string text, read_text_file(settings.package / "Head/scene.json"));
     const json scene = json::parse(text);
     const json& light = scene["lights"][0];
@@ -283,8 +230,7 @@ Result<Image> draw_head(const DrawingSettings& settings) {
     DERMIS_TRY_ASSIGN(gpu::Device device, gpu::Device::create({}));
     Uploads uploads;
     const Vec3 to_light = mirrored(light["to_light"]);
-    gpu::FrameInputs frame = {.width = settings.side * settings.points,
-                              .height = settings.side * settings.points};
+    gpu::FrameInputs frame;
     DERMIS_TRY_ASSIGN(frame.draws, head_draws(device, scene, settings, uploads));
     frame.blocks["StubCamera"] = camera_values(scene);
     frame.blocks["StubCamera@1"] = light_camera(shadow_values(scene, to_light), camera_values(scene));
@@ -296,12 +242,10 @@ Result<Image> draw_head(const DrawingSettings& settings) {
         {"stub_light_direction", row(to_light, 0)},
         {"stub_light_color", row(Vec3{float(color[0]), float(color[1]), float(color[2])} * over_pi, 0)}};
 
-    DERMIS_TRY_ASSIGN(gpu::Executor executor, gpu::Executor::create(device, [&](std::string_view name) {
-                          return compiled(settings.package, scratch.path, name);
-                      }));
-    DERMIS_TRY(executor.run(passes(scene), frame));
-    DERMIS_TRY_ASSIGN(const Image radiance, executor.read("radiance"));
-    return resize(radiance, settings.side, settings.side);
+    const auto shaders = [&](std::string_view name) {
+        return compiled(settings.package, scratch.path, std::string(name));
+    };
+    return drawn(device, shaders, passes(scene), std::move(frame), settings);
 }
 
 }  // namespace dermis::unity_head

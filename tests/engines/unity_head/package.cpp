@@ -5,13 +5,13 @@
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/image/colour.h"
-#include "dermis/image/io.h"
-#include "dermis/image/resample.h"
+#include "engines/drawn_head/drawing.h"
 
 namespace dermis::unity_head {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using namespace drawn_head;
 
 namespace {
 
@@ -107,26 +107,7 @@ Result<gpu::TextureData> import_picture(const fs::path& path) {
     DERMIS_TRY_ASSIGN(const std::string meta, read_text_file(path.string() + ".meta"));
     DERMIS_TRY_ASSIGN(const std::string srgb, meta_value(meta, "sRGBTexture"));
     DERMIS_TRY_ASSIGN(const std::string has_mips, meta_value(meta, "enableMipMap"));
-    DERMIS_TRY_ASSIGN(const LoadedImage loaded, read_image(path, dermis::ImageUse::data));
-    const Image& image = loaded.image;
-    const bool is_float = path.extension() == ".exr";
-    gpu::TextureData data = {.name = path.filename().string(),
-                             .format = is_float ? ImageFormat::rgba16f : ImageFormat::rgba8,
-                             .srgb = !is_float && srgb == "1",
-                             .width = image.width,
-                             .height = image.height};
-    Image turned(image.width, image.height, 4, is_float ? PixelFormat::f16 : PixelFormat::u8);
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            for (int c = 0; c < 4; ++c)
-                turned.set(x, image.height - 1 - y, c, c < image.channels ? image.at(x, y, c) : 1);
-    // As an importer on the CPU: levels that a device draws from each other round at every step.
-    turned.encoding = data.srgb ? Encoding::srgb : Encoding::linear;
-    const std::vector<Image> levels = has_mips == "1" ? mip_chain(turned) : std::vector{turned};
-    data.mips = int(levels.size());
-    for (const Image& level : levels)
-        data.bytes.insert(data.bytes.end(), level.bytes.begin(), level.bytes.end());
-    return data;
+    return drawn_head::imported_picture(path, srgb == "1", has_mips == "1", true);
 }
 
 Result<Material> make_material(const fs::path& package, const json& settings, const json& surface) {

@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "engines/unity_head/glb.h"
+#include "engines/drawn_head/glb.h"
 
 namespace dermis::unity_head {
+
+using drawn_head::Glb;
 
 struct Moment {
     std::string clip;  ///< empty: the nodes as the file opens

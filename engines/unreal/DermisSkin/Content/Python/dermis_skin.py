@@ -9,6 +9,7 @@ import os
 
 import unreal
 
+PLUGIN = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 FOLDER = "/DermisSkin"
 TABLE = FOLDER + "/T_SkinTable"
 MATERIAL = FOLDER + "/M_Skin"
@@ -26,23 +27,32 @@ TABLE_SETTINGS = {
 }
 
 
-def import_table():
-    plugin = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+def import_file(path, folder, name):
+    """Imports a file of the plugin; the assets that it became."""
     task = unreal.AssetImportTask()
-    task.set_editor_property("filename", os.path.join(plugin, "Resources", "SkinTable.exr"))
-    task.set_editor_property("destination_path", FOLDER)
-    task.set_editor_property("destination_name", "T_SkinTable")
+    task.set_editor_property("filename", os.path.join(PLUGIN, path))
+    task.set_editor_property("destination_path", folder)
+    task.set_editor_property("destination_name", name)
     task.set_editor_property("automated", True)
     task.set_editor_property("replace_existing", True)
     task.set_editor_property("save", False)
     unreal.AssetToolsHelpers.get_asset_tools().import_asset_tasks([task])
-    table = unreal.EditorAssetLibrary.load_asset(TABLE)
-    if table is None:
-        raise RuntimeError("dermis_skin: Resources/SkinTable.exr could not be imported")
-    for name, value in TABLE_SETTINGS.items():
-        table.set_editor_property(name, value)
-    unreal.EditorAssetLibrary.save_loaded_asset(table)
-    return table
+    assets = [unreal.EditorAssetLibrary.load_asset(path) for path in task.get_editor_property("imported_object_paths")]
+    if not assets:
+        raise RuntimeError("dermis_skin: " + path + " could not be imported")
+    return assets
+
+
+def import_texture(path, folder, name, settings):
+    texture = import_file(path, folder, name)[0]
+    for key, value in settings.items():
+        texture.set_editor_property(key, value)
+    unreal.EditorAssetLibrary.save_loaded_asset(texture)
+    return texture
+
+
+def import_table():
+    return import_texture(os.path.join("Resources", "SkinTable.exr"), FOLDER, "T_SkinTable", TABLE_SETTINGS)
 
 
 def add(material, kind, x, y, **properties):
@@ -58,11 +68,15 @@ def custom_input(name):
     return value
 
 
-def make_material(table):
+def create_material(folder, name):
     tools = unreal.AssetToolsHelpers.get_asset_tools()
-    material = tools.create_asset("M_Skin", FOLDER, unreal.Material, unreal.MaterialFactoryNew())
+    material = tools.create_asset(name, folder, unreal.Material, unreal.MaterialFactoryNew())
     material.set_editor_property("shading_model", unreal.MaterialShadingModel.MSM_UNLIT)
+    return material
 
+
+def make_material(table):
+    material = create_material(FOLDER, "M_Skin")
     inputs = {
         "Table": add(material, unreal.MaterialExpressionTextureObjectParameter, -900, 0, parameter_name="SkinTable",
                      texture=table, sampler_type=unreal.MaterialSamplerType.SAMPLERTYPE_LINEAR_COLOR),
@@ -86,6 +100,11 @@ def make_material(table):
                     "float3 Diffuse = SkinDiffuseOfTable(Table, TableSampler, NdotL, SkinCurvature(Normal, Position),\n"
                     "    Parameters.SvPosition.xy);\n"
                     "return SkinThin(Diffuse, SkinGain(Normal, Position), NdotL, Thickness) * Albedo.rgb * LightColor.rgb;")
+    finish(material, node, inputs)
+
+
+def finish(material, node, inputs):
+    """Connects the node and compiles the material, which is unlit: the node's light is what it emits."""
     for name, source in inputs.items():
         unreal.MaterialEditingLibrary.connect_material_expressions(source, "", node, name)
     unreal.MaterialEditingLibrary.connect_material_property(node, "", unreal.MaterialProperty.MP_EMISSIVE_COLOR)

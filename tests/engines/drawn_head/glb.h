@@ -1,5 +1,5 @@
 #pragma once
-// What unity_head reads of a GLB.
+// What unity_head and unreal_head read of a GLB.
 
 #include <cstdint>
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 #include "dermis/base/result.h"
 
-namespace dermis::unity_head {
+namespace dermis::drawn_head {
 
 struct Glb {
     nlohmann::json document;
@@ -21,4 +21,4 @@ struct Glb {
 [[nodiscard]] std::vector<float> floats_of(const Glb& glb, size_t accessor);
 [[nodiscard]] std::vector<uint32_t> integers_of(const Glb& glb, size_t accessor);
 
-}  // namespace dermis::unity_head
+}  // namespace dermis::drawn_head

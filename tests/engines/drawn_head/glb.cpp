@@ -1,11 +1,11 @@
-#include "engines/unity_head/glb.h"
+#include "engines/drawn_head/glb.h"
 
 #include <cstring>
 #include <map>
 
 #include "dermis/base/file.h"
 
-namespace dermis::unity_head {
+namespace dermis::drawn_head {
 
 using nlohmann::json;
 
@@ -69,4 +69,4 @@ std::vector<uint32_t> integers_of(const Glb& glb, size_t accessor) {
     return integers_in_view(glb, at, at["componentType"], at["count"], numbers_in(at["type"]));
 }
 
-}  // namespace dermis::unity_head
+}  // namespace dermis::drawn_head

@@ -1,0 +1,137 @@
+#include "dermis/engines/head_maps.h"
+
+#include <algorithm>
+
+#include "dermis/engines/web/parts.h"
+#include "dermis/image/dilate.h"
+#include "dermis/image/io.h"
+#include "dermis/mesh/uv_texels.h"
+#include "dermis/rays/uv_raster.h"
+#include "dermis/render/frame_values.h"
+#include "dermis/scene/environment.h"
+
+namespace dermis::inline engines {
+namespace {
+
+using nlohmann::json;
+using web::to_json;
+
+constexpr int kVertexMapSize = 1024, kGutterTexels = 16, kShadowMapSize = 2048;
+constexpr const char* kBends = "vertex_bends.exr";
+constexpr const char* kOcclusion = "vertex_occlusion.png";
+
+// The four pairs between the corners of a triangle.
+std::array<Vec2, 4> between(const Mesh& mesh, const VertexNumbers& numbers, const UvTexel& texel) {
+    const uint32_t* corner = &mesh.indices[3 * size_t(texel.triangle)];
+    std::array<Vec2, 4> pairs;
+    for (size_t i = 0; i < pairs.size(); ++i)
+        pairs[i] = numbers[i][corner[0]] * (1 - texel.u - texel.v) + numbers[i][corner[1]] * texel.u +
+                   numbers[i][corner[2]] * texel.v;
+    return pairs;
+}
+
+Result<void> add_picture(const std::string& name, const Image& image, std::vector<PackageFile>& files) {
+    DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, encode_image(name.substr(name.rfind('.')), image));
+    files.push_back({name, std::move(bytes)});
+    return {};
+}
+
+// A camera without perspective at the light.
+struct LightView {
+    Vec3 x, y, to_light, center_mm;
+    float radius_mm = 1;
+
+    // Column and row in texels, and how far towards the light, in mm.
+    [[nodiscard]] Vec3 place(Vec3 p_mm) const {
+        const Vec3 from = p_mm - center_mm;
+        const float scale = kShadowMapSize / (2 * radius_mm);
+        return {(dot(from, x) + radius_mm) * scale, (dot(from, y) + radius_mm) * scale, dot(from, to_light)};
+    }
+};
+
+void draw_depths(const Mesh& mesh, const Submesh& submesh, const LightView& view, Image& depths) {
+    for (uint32_t t = submesh.first_index / 3; t < (submesh.first_index + submesh.index_count) / 3; ++t) {
+        std::array<Vec3, 3> at;
+        std::array<std::array<double, 2>, 3> corners;
+        for (size_t k = 0; k < 3; ++k) {
+            at[k] = view.place(mesh.positions_mm[mesh.indices[3 * size_t(t) + k]]);
+            corners[k] = {at[k].x, at[k].y};
+        }
+        visit_texels_of(corners, {depths.width, depths.height}, [&](int x, int y, double v, double w) {
+            const float depth = float((1 - v - w) * at[0].z + v * at[1].z + w * at[2].z);
+            if (depth > depths.at(x, y, 0)) depths.set(x, y, 0, depth);
+        });
+    }
+}
+
+}  // namespace
+
+Result<json> add_vertex_maps(const Scene& scene, std::span<const VertexNumbers> numbers,
+                             std::vector<PackageFile>& files) {
+    const UvRaster raster =
+        rasterise_uv(scene.objects, kVertexMapSize, kVertexMapSize, is_skin, UvSet::atlas);
+    Image bends(raster.width, raster.height, 4, PixelFormat::f16),
+        occlusion(raster.width, raster.height, 3, PixelFormat::u8);
+    for (int y = 0; y < raster.height; ++y)
+        for (int x = 0; x < raster.width; ++x) {
+            const UvTexel& texel = raster.texels[size_t(y) * size_t(raster.width) + size_t(x)];
+            if (!texel.covered()) continue;
+            const auto p = between(scene.objects[texel.object].mesh, numbers[texel.object], texel);
+            const float bent[] = {p[0].x, p[0].y, p[1].x, p[3].x}, scattered[] = {p[1].y, p[2].x, p[2].y};
+            for (int c = 0; c < 4; ++c) bends.set(x, y, c, bent[c]);
+            for (int c = 0; c < 3; ++c) occlusion.set(x, y, c, scattered[c]);
+        }
+    const Image mask = coverage_mask(raster);
+    dilate(bends, mask, kGutterTexels);
+    dilate(occlusion, mask, kGutterTexels);
+    DERMIS_TRY(add_picture(kBends, bends, files));
+    DERMIS_TRY(add_picture(kOcclusion, occlusion, files));
+    return json{{"bends", kBends}, {"occlusion", kOcclusion}};
+}
+
+Result<json> add_shadow_map(const Scene& scene, const Light& light, const std::string& name,
+                            std::vector<PackageFile>& files) {
+    const Vec3 l = normalize(light.to_light_world), up = std::abs(l.y) < 0.9f ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
+    const Vec3 x = normalize(cross(up, l));
+    const LightView view = {x, cross(l, x), l, scene.bounds_center_mm, scene.bounds_radius_mm};
+    Image depths(kShadowMapSize, kShadowMapSize, 1, PixelFormat::f16);
+    for (int row = 0; row < depths.height; ++row)
+        for (int column = 0; column < depths.width; ++column)
+            depths.set(column, row, 0, -2 * view.radius_mm);  // behind all surfaces
+    for (const SceneObject& object : scene.objects)
+        for (const Submesh& submesh : object.mesh.submeshes) {
+            const uint32_t m = submesh.material;
+            const bool hidden = m < object.hidden.size() && object.hidden[m];
+            if (!hidden && (m >= object.classes.size() || object.classes[m] != MaterialClass::translucent))
+                draw_depths(object.mesh, submesh, view, depths);
+        }
+    DERMIS_TRY(add_picture(name, depths, files));
+    return json{{"file", name},
+                {"x", to_json(view.x)},
+                {"y", to_json(view.y)},
+                {"to_light", to_json(view.to_light)},
+                {"center_mm", to_json(view.center_mm)},
+                {"radius_mm", to_json(view.radius_mm)}};
+}
+
+Result<json> ambient_terms(const Environment& environment) {
+    // Lambert's bands over pi (Ramamoorthi, Hanrahan 2001).
+    constexpr float kBands[] = {1, 2 / 3.0f, 2 / 3.0f, 2 / 3.0f, 0.25f, 0.25f, 0.25f, 0.25f, 0.25f};
+    DERMIS_TRY_ASSIGN(const EnvironmentLight light, prepare_environment(environment));
+    const std::array<Vec3, 9> terms = environment_terms(light.radiance_sh, environment.yaw_rad);
+    json made = json::array();
+    for (size_t i = 0; i < terms.size(); ++i)
+        made.push_back(to_json(terms[i] * (kBands[i] * environment.intensity)));
+    return made;
+}
+
+json box_json(const Mesh& mesh) {
+    Vec3 low = mesh.positions_mm.front(), high = low;
+    for (const Vec3& p : mesh.positions_mm) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    return json::array({to_json(low), to_json(high)});
+}
+
+}  // namespace dermis::inline engines

@@ -1,0 +1,35 @@
+#pragma once
+// What a head that stands still has as pictures, for HeadFormat::still_maps. Internal to dermis/engines.
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "dermis/engines/package.h"
+#include "dermis/scene/scene.h"
+
+namespace dermis::inline engines {
+
+/// Numbers of the vertices of a mesh as they are in TEXCOORD_2 to TEXCOORD_5 (head.h): four pairs.
+using VertexNumbers = std::vector<std::vector<Vec2>>;
+
+/// The numbers as vertex_bends.exr (red, green, blue: the curvature in 1/mm; alpha: the occlusion) and
+/// vertex_occlusion.png (that scattered by the profile) over the atlas, one VertexNumbers an object. Returns
+/// their names.
+[[nodiscard]] Result<nlohmann::json> add_vertex_maps(const Scene& scene,
+                                                     std::span<const VertexNumbers> numbers,
+                                                     std::vector<PackageFile>& files);
+
+/// What a directional light sees, as a half-float EXR of this name: in red, how far towards the light from
+/// center_mm its first surface is, in mm. Rows begin at -radius_mm along y, columns at -radius_mm along x;
+/// both axes are in what is returned, with to_light.
+[[nodiscard]] Result<nlohmann::json> add_shadow_map(const Scene& scene, const Light& light,
+                                                    const std::string& name, std::vector<PackageFile>& files);
+
+/// Coefficients of irradiance over pi by direction n in the world, of 1, y, z, x, xy, yz, 3 z^2 - 1, xz,
+/// x^2 - y^2: nine colours, intensity included. Error: an environment that cannot be read.
+[[nodiscard]] Result<nlohmann::json> ambient_terms(const Environment& environment);
+
+/// The smallest and the largest corner of the mesh, in mm.
+[[nodiscard]] nlohmann::json box_json(const Mesh& mesh);
+
+}  // namespace dermis::inline engines
