@@ -21,7 +21,7 @@ struct Settings {
     std::string clip;  ///< empty: the nodes as the file opens
     double time_s = 0;
     /// "normals": baked normals are not bound; "curvature": in 1/m; "srgb": directions imported as colours;
-    /// "frames": the bakes do not turn with the surface.
+    /// "frames": the bakes do not turn with the surface; "shadow": the light is not that of its map.
     std::string mistake;
 };
 

@@ -67,9 +67,13 @@ Result<void> add_streams(const Glb& glb, const json& primitive, std::vector<std:
                                                 {"TANGENT", "input.tangent", 4},
                                                 {"TEXCOORD_0", "input.uv_0", 2},
                                                 {"TEXCOORD_1", "input.uv_1", 2}}) {
-        if (!primitive["attributes"].contains(semantic))
-            return Error{"the mesh has no " + std::string(semantic)};
-        const std::vector<float> given = floats_of(glb, primitive["attributes"][semantic]);
+        const json& attributes = primitive["attributes"];
+        const bool has_it = attributes.contains(semantic);
+        if (!has_it && count != 4) return Error{"the mesh has no " + std::string(semantic)};
+        // Without tangents there is no map that reads them.
+        const std::vector<float> given =
+            has_it ? floats_of(glb, attributes[semantic])
+                   : std::vector<float>(floats_of(glb, attributes["NORMAL"]).size() / 3 * 4);
         std::vector<float>& made = kept.emplace_back();
         const float scale = std::string_view(semantic) == "POSITION" ? 100.0f : 1.0f;
         for (size_t i = 0; i < given.size(); i += size_t(count)) {
@@ -117,6 +121,9 @@ Result<gpu::Draw> material_draw(gpu::Device& device, const json& editor, const G
         draw.values[name + "Value"] = value.is_array()
                                           ? ShaderValue(Vec4{value[0], value[1], value[2], value[3]})
                                           : ShaderValue(float(value));
+    if (settings.mistake == "shadow")
+        for (auto& [name, value] : draw.values)
+            if (name.ends_with("ToLightValue")) value = Vec4{};
     draw.values["ScatteringValue"] = settings.lambert ? 0.0f : 1.0f;
     draw.values["CurvedGainValue"] = settings.gain ? 1.0f : 0.0f;
     return draw;
@@ -156,7 +163,7 @@ Result<void> add_mesh(gpu::Device& device, const json& editor, const json& mesh,
 }  // namespace
 
 Result<Image> draw_head(const Settings& settings) {
-    constexpr std::string_view kMistakes[] = {"", "normals", "curvature", "srgb"};
+    constexpr std::string_view kMistakes[] = {"", "normals", "curvature", "srgb", "shadow"};
     if (std::ranges::count(kMistakes, settings.mistake) == 0)
         return Error{"no mistake is named '" + settings.mistake + "'"};
     const TemporaryDirectory scratch;

@@ -10,15 +10,14 @@
 
 namespace dermis::unreal_head {
 
-/// What unreal.py prints: assets by path, nodes, links, actors.
 struct Graph {
     std::string fragment;                          ///< HLSL; values are in the block Material
     std::map<std::string, std::string> textures;   ///< paths of assets by their parameter
     std::map<std::string, nlohmann::json> values;  ///< a number or four of each other parameter
 };
 
-/// Of the material with this path. Errors: no Custom node, an input without a link, a node that is not
-/// modelled.
+/// Of the material with this path; `editor` is what unreal.py prints. Errors: no Custom node, an input
+/// without a link, a node that is not modelled.
 [[nodiscard]] Result<Graph> material_graph(const nlohmann::json& editor, const std::string& path);
 
 /// The text of the vertex shader.

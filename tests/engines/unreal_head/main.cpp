@@ -3,7 +3,7 @@
 // as a linear EXR for `dermis compare --picture`. Needs python3.
 //
 //     build/tests/unreal_head PACKAGE picture.exr [--side 96] [--points 4] [--gain] [--lambert]
-//                             [--mistake normals|curvature|srgb]
+//                             [--mistake normals|curvature|srgb|shadow]
 //
 // --lambert is the skin without scattering, --gain has what curved skin returns beyond flat skin.
 

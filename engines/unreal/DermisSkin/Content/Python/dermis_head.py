@@ -74,16 +74,22 @@ def colour(numbers, factor=1.0):
     return unreal.LinearColor(numbers[0] * factor, numbers[1] * factor, numbers[2] * factor, 1.0)
 
 
+# Of this build, by their files: several materials have the same.
+textures = {}
+
+
 def texture(file, settings):
     """A map of the head; white where it has none."""
     if not file:
         return unreal.EditorAssetLibrary.load_asset(WHITE)
-    name = "T_" + os.path.splitext(file)[0]
-    return dermis_skin.import_texture(os.path.join("Head", file), FOLDER, name, settings)
+    if file not in textures:
+        name = "T_" + os.path.splitext(file)[0]
+        textures[file] = dermis_skin.import_texture(os.path.join("Head", file), FOLDER, name, settings)
+    return textures[file]
 
 
 def skin_maps(scene, surface):
-    """Textures by the node's inputs, and whether they are colours. Normals without a map are those of the mesh."""
+    """By the node's inputs: the texture, and whether it is a colour."""
     maps, normals = surface.get("maps", {}), scene.get("baked_normals", [None, None, None])
     files = {
         "AlbedoMap": (maps.get("albedo"), COLOUR),
@@ -279,6 +285,7 @@ def build():
     with open(path, encoding="utf-8") as file:
         scene = json.load(file)
     dermis_skin.install()
+    textures.clear()
     actors = unreal.get_editor_subsystem(unreal.EditorActorSubsystem)
     for actor in actors.get_all_level_actors():
         if actor.actor_has_tag(TAG):
