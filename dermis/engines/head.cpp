@@ -283,13 +283,6 @@ Result<json> head_lights_json(const HeadInput& input, Head& head) {
     return lights;
 }
 
-// By the extension: .png, .exr.
-Result<void> add_picture(Head& head, const std::string& path, const Image& image) {
-    DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, encode_image(path.substr(path.rfind('.')), image));
-    head.files.push_back({path, std::move(bytes)});
-    return {};
-}
-
 // The renderer's own three textures, of which red has 10 bits: head.h.
 Result<json> add_normals(const DiffusedNormals& normals, bool red_in_halves, Head& head) {
     const std::vector<gpu::TextureData> textures = diffused_normals_textures(normals);
@@ -310,9 +303,9 @@ Result<json> add_normals(const DiffusedNormals& normals, bool red_in_halves, Hea
             spread.set(x, y, 2, float(textures[1].bytes[4 * at + 3]) / 255);
         }
     const std::string red_name = red_in_halves ? "normals_red.exr" : "normals_red.png";
-    DERMIS_TRY(add_picture(head, red_name, red));
-    DERMIS_TRY(add_picture(head, "normals_green.png", green));
-    DERMIS_TRY(add_picture(head, "normals_spread.png", spread));
+    DERMIS_TRY(add_picture(red_name, red, head.files));
+    DERMIS_TRY(add_picture("normals_green.png", green, head.files));
+    DERMIS_TRY(add_picture("normals_spread.png", spread, head.files));
     return json{red_name, "normals_green.png", "normals_spread.png"};
 }
 
@@ -322,7 +315,7 @@ Result<json> add_thickness(const Image& thickness_mm, Head& head) {
         for (int x = 0; x < image.width; ++x)
             for (int c = 0; c < 3; ++c)
                 image.set(x, y, c, std::clamp(thickness_mm.at(x, y, 0) / kThicknessMaxMm, 0.0f, 1.0f));
-    DERMIS_TRY(add_picture(head, "thickness.png", image));
+    DERMIS_TRY(add_picture("thickness.png", image, head.files));
     return json{{"file", "thickness.png"}, {"max_mm", kThicknessMaxMm}};
 }
 
@@ -372,9 +365,7 @@ Result<json> add_panorama(const Environment& environment, const HeadFormat& form
                  {"radiance_sh", harmonics},
                  {"yaw_rad", to_json(environment.yaw_rad)}};
     if (format.ambient_probe) made["ambient_probe"] = ambient_probe(light, environment);
-    if (format.still_maps) {
-        DERMIS_TRY_ASSIGN(made["ambient_terms"], ambient_terms(environment));
-    }
+    if (format.still_maps) made["ambient_terms"] = ambient_terms(light, environment);
     return made;
 }
 

@@ -8,7 +8,6 @@
 #include "dermis/mesh/uv_texels.h"
 #include "dermis/rays/uv_raster.h"
 #include "dermis/render/frame_values.h"
-#include "dermis/scene/environment.h"
 
 namespace dermis::inline engines {
 namespace {
@@ -28,12 +27,6 @@ std::array<Vec2, 4> between(const Mesh& mesh, const VertexNumbers& numbers, cons
         pairs[i] = numbers[i][corner[0]] * (1 - texel.u - texel.v) + numbers[i][corner[1]] * texel.u +
                    numbers[i][corner[2]] * texel.v;
     return pairs;
-}
-
-Result<void> add_picture(const std::string& name, const Image& image, std::vector<PackageFile>& files) {
-    DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, encode_image(name.substr(name.rfind('.')), image));
-    files.push_back({name, std::move(bytes)});
-    return {};
 }
 
 // A camera without perspective at the light.
@@ -65,6 +58,12 @@ void draw_depths(const Mesh& mesh, const Submesh& submesh, const LightView& view
 }
 
 }  // namespace
+
+Result<void> add_picture(const std::string& name, const Image& image, std::vector<PackageFile>& files) {
+    DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, encode_image(name.substr(name.rfind('.')), image));
+    files.push_back({name, std::move(bytes)});
+    return {};
+}
 
 Result<json> add_vertex_maps(const Scene& scene, std::span<const VertexNumbers> numbers,
                              std::vector<PackageFile>& files) {
@@ -114,10 +113,9 @@ Result<json> add_shadow_map(const Scene& scene, const Light& light, const std::s
                 {"radius_mm", to_json(view.radius_mm)}};
 }
 
-Result<json> ambient_terms(const Environment& environment) {
+json ambient_terms(const EnvironmentLight& light, const Environment& environment) {
     // Lambert's bands over pi (Ramamoorthi, Hanrahan 2001).
     constexpr float kBands[] = {1, 2 / 3.0f, 2 / 3.0f, 2 / 3.0f, 0.25f, 0.25f, 0.25f, 0.25f, 0.25f};
-    DERMIS_TRY_ASSIGN(const EnvironmentLight light, prepare_environment(environment));
     const std::array<Vec3, 9> terms = environment_terms(light.radiance_sh, environment.yaw_rad);
     json made = json::array();
     for (size_t i = 0; i < terms.size(); ++i)

@@ -5,9 +5,15 @@
 #include <vector>
 
 #include "dermis/engines/package.h"
+#include "dermis/image/image.h"
+#include "dermis/scene/environment.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis::inline engines {
+
+/// A file of this name: .png or .exr.
+[[nodiscard]] Result<void> add_picture(const std::string& name, const Image& image,
+                                       std::vector<PackageFile>& files);
 
 /// Numbers of the vertices of a mesh as they are in TEXCOORD_2 to TEXCOORD_5 (head.h): four pairs.
 using VertexNumbers = std::vector<std::vector<Vec2>>;
@@ -26,8 +32,8 @@ using VertexNumbers = std::vector<std::vector<Vec2>>;
                                                     const std::string& name, std::vector<PackageFile>& files);
 
 /// Coefficients of irradiance over pi by direction n in the world, of 1, y, z, x, xy, yz, 3 z^2 - 1, xz,
-/// x^2 - y^2: nine colours, intensity included. Error: an environment that cannot be read.
-[[nodiscard]] Result<nlohmann::json> ambient_terms(const Environment& environment);
+/// x^2 - y^2: nine colours, intensity included.
+[[nodiscard]] nlohmann::json ambient_terms(const EnvironmentLight& light, const Environment& environment);
 
 /// The smallest and the largest corner of the mesh, in mm.
 [[nodiscard]] nlohmann::json box_json(const Mesh& mesh);

@@ -20,12 +20,14 @@ static const float3 kGatherWeights[kGatherPlaces] = {
 float SkinPlainShadow(SKIN_SHADOW_IN float3 n_world, float3 to_light_world, float penumbra_mm, float texel_mm) {
     float seen = 0.0;
     [loop] for (int i = 0; i < kDiskPlaces; ++i)
-        seen += SkinSeenAt(SKIN_SHADOW skin_disk_offset_mm(float(i), float(kDiskPlaces), n_world, to_light_world, 0.5 * penumbra_mm, texel_mm));
+        seen += SkinSeenAt(SKIN_SHADOW skin_disk_offset_mm(float(i), float(kDiskPlaces), n_world, to_light_world, 0.5 * penumbra_mm,
+                                                           texel_mm));
     return seen / float(kDiskPlaces);
 }
 
 // n, to_light and the tensor are in the mesh's space; visible is SkinPlainShadow(). For light that is multiplied by gain later.
-float3 SkinGatheredShadow(SKIN_SHADOW_IN float3 n, float3 to_light, float3 diagonal, float3 mixed, float visible, float texel_mm, float3 gain) {
+float3 SkinGatheredShadow(SKIN_SHADOW_IN float3 n, float3 to_light, float3 diagonal, float3 mixed, float visible, float texel_mm,
+                          float3 gain) {
     float3 across = normalize(cross(abs(n.y) < 0.9 ? float3(0.0, 1.0, 0.0) : float3(1.0, 0.0, 0.0), n));
     float3 x = skin_gather_tangent(n, to_light, across), y = cross(n, x), bends = skin_gather_bends(diagonal, mixed, x, y);
     float cosine = dot(n, to_light), sine = length(to_light - n * cosine);

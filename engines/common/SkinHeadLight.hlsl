@@ -97,7 +97,8 @@ float3 SkinEntered(SKIN_TABLE_IN SkinHeadSurface s, float3 to_light_world) {
     float curvature = s.curvature_per_mm * sqrt(skin_spread_towards(s.n_red, s.uneven, to_light));
     if (s.baked_normals < 0.5) curvature = s.curvature_gain * skin_curvature_towards(s.diagonal, s.mixed, s.n_mesh, to_light);
     curvature = min(curvature, kSkinMaxCurvaturePerMm);
-    return float3(SkinFalloff(SKIN_TABLE dot(s.n_red, to_light), curvature).r, SkinFalloff(SKIN_TABLE dot(s.n_green, to_light), curvature).g,
+    return float3(SkinFalloff(SKIN_TABLE dot(s.n_red, to_light), curvature).r,
+                  SkinFalloff(SKIN_TABLE dot(s.n_green, to_light), curvature).g,
                   SkinFalloff(SKIN_TABLE dot(s.n_blue, to_light), curvature).b);
 }
 

@@ -146,7 +146,8 @@ float3 SkinHeadMainLight(SkinHeadSurface s, float3 positionWS) {
     visible = SkinPlainShadow(positionWS, s.n_geometry, light.direction, _PenumbraMm, texel_mm);
     entering = (float3)visible;
     if (_Scattering > 0.5)
-        entering = SkinGatheredShadow(positionWS, s.n_mesh, SkinWorldToMesh(light.direction), s.diagonal, s.mixed, visible, texel_mm, s.gain);
+        entering = SkinGatheredShadow(positionWS, s.n_mesh, SkinWorldToMesh(light.direction), s.diagonal, s.mixed, visible, texel_mm,
+                                      s.gain);
     visible = lerp(1.0, visible, strength);
     entering = lerp((float3)1.0, entering, strength);
 #elif defined(_MAIN_LIGHT_SHADOWS_SCREEN)
@@ -171,7 +172,8 @@ float3 SkinHeadLights(SkinHeadSurface s, SkinHeadVaryings input) {
     uint pixelLightCount = GetAdditionalLightsCount();
 #if defined(_FORWARD_PLUS) || defined(_CLUSTER_LIGHT_LOOP)
     // Directional lights after the main one are not in the clusters.
-    for (uint i = 0; i < min(URP_FP_DIRECTIONAL_LIGHTS_COUNT, MAX_VISIBLE_LIGHTS); ++i) radiance += SkinHeadAdditionalLight(s, positionWS, i);
+    for (uint i = 0; i < min(URP_FP_DIRECTIONAL_LIGHTS_COUNT, MAX_VISIBLE_LIGHTS); ++i)
+        radiance += SkinHeadAdditionalLight(s, positionWS, i);
 #endif
     LIGHT_LOOP_BEGIN(pixelLightCount)
         radiance += SkinHeadAdditionalLight(s, positionWS, lightIndex);

@@ -129,7 +129,8 @@ class StaticMesh(Thing):
 
 def import_glb(path, filename):
     with open(filename, "rb") as file:
-        document = json.loads(file.read()[20:][:struct.unpack("<I", open(filename, "rb").read(16)[12:])[0]])
+        length = struct.unpack("<I", file.read(20)[12:16])[0]
+        document = json.loads(file.read(length))
     mesh = editor.asset(path, "StaticMesh", file=filename)
     corners = {"min": [], "max": []}
     slots = []
@@ -139,7 +140,8 @@ def import_glb(path, filename):
         slots.append(Thing())
         slots[-1].properties["material_slot_name"] = document["materials"][primitive["material"]]["name"]
     mesh.properties["static_materials"] = slots
-    low, high = ([function(one[axis] for one in corners[end]) * 100 for axis in (0, 2, 1)] for function, end in ((min, "min"), (max, "max")))
+    low = [min(one[axis] for one in corners["min"]) * 100 for axis in (0, 2, 1)]
+    high = [max(one[axis] for one in corners["max"]) * 100 for axis in (0, 2, 1)]
     mesh.box = Box(Vector(*low), Vector(*high))
 
 
@@ -256,7 +258,7 @@ if __name__ == "__main__":
     sys.modules["unreal"] = sys.modules["__main__"]
     sys.path.insert(0, sys.argv[1])
     exec(sys.argv[2])
-    nodes = [dict({name: written(value) for name, value in node.properties.items()}) for node in editor.nodes]
+    nodes = [{name: written(value) for name, value in node.properties.items()} for node in editor.nodes]
     assets = {path: {name: written(value) for name, value in asset.properties.items()} for path, asset in editor.assets.items()}
     actors = [{name: written(value) for name, value in actor.properties.items()} for actor in editor.actors]
     print(json.dumps({"assets": assets, "nodes": nodes, "links": editor.links, "actors": actors}, indent=1))
