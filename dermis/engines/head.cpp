@@ -9,6 +9,7 @@
 
 #include "dermis/engines/engine.h"
 #include "dermis/engines/head_maps.h"
+#include "dermis/engines/target_curvature.h"
 #include "dermis/engines/web/parts.h"
 #include "dermis/image/io.h"
 #include "dermis/mesh/surface_frame.h"
@@ -50,7 +51,7 @@ Result<VertexNumbers> vertex_numbers(const Mesh& mesh, const std::array<Vec3, 3>
         pairs[0][v] = {0.5f * (tt + bb), 0.5f * (tt - bb)};
         pairs[1][v] = {dot(t, s * b), scattered.x};
         pairs[2][v] = {scattered.y, scattered.z};
-        pairs[3][v] = {occlusion, 0};
+        pairs[3][v] = {occlusion, float(v)};
     }
     return pairs;
 }
@@ -214,6 +215,22 @@ Result<std::optional<Rig>> rig_of_head(const HeadInput& input, const SceneObject
     return rig;
 }
 
+// head.h. Null where no target changes the curvature.
+Result<json> add_target_curvatures(const HeadInput& input, size_t index, Head& head) {
+    const SceneObject& object = input.scene.objects[index];
+    DERMIS_TRY_ASSIGN(const std::vector<TargetCurvature> all,
+                      target_curvatures(object, input.scene.motion.pose(), object.motion.targets));
+    if (all.empty()) return json();
+    json names = json::array();
+    for (const TargetCurvature& target : all) names.push_back(target.name);
+    const std::string path = fmt::format("{}_curvature.png", index);
+    DERMIS_TRY(add_picture(path, curvature_picture(all), head.files));
+    return json{{"file", path},
+                {"targets", names},
+                {"rows", curvature_rows(object.mesh.positions_mm.size())},
+                {"most_per_mm", to_json(kMostMeanCurvatureChange)}};
+}
+
 // Adds the mesh and its maps. `numbers`: the vertices' own, where they are not in the mesh.
 Result<json> head_object_json(const HeadInput& input, size_t index, Head& head, VertexNumbers& numbers) {
     const SceneObject& object = input.scene.objects[index];
@@ -245,7 +262,12 @@ Result<json> head_object_json(const HeadInput& input, size_t index, Head& head, 
     DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, glb_bytes(mesh, {}, {}, in_mesh, rig ? &*rig : nullptr));
     const std::string path = fmt::format("object_{}.glb", index);
     head.files.push_back({path, std::move(bytes)});
-    return json{{"file", path}, {"name", object.name}, {"box_mm", box_json(mesh)}, {"materials", materials}};
+    json made = {
+        {"file", path}, {"name", object.name}, {"box_mm", box_json(mesh)}, {"materials", materials}};
+    if (!rig) return made;
+    DERMIS_TRY_ASSIGN(json changes, add_target_curvatures(input, index, head));
+    if (!changes.is_null()) made["curvature_of_targets"] = std::move(changes);
+    return made;
 }
 
 json head_light_json(const Light& light, bool casts_shadow) {

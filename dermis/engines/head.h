@@ -11,9 +11,14 @@
 //              difference between those along the two tangents; TEXCOORD_3 the mixed one, all in 1/mm in the
 //              frame of vertex_tangent() (shaders/include/skin/curvature.glsl), and the occlusion of red;
 //              TEXCOORD_4 that of green and blue, scattered by the profile; TEXCOORD_5 the occlusion as it
-//              is. A mesh that moves has its nodes, skins, morph targets and clips, in the scene's pose, and
-//              in TEXCOORD_6 and TEXCOORD_7 the quaternion x y z w of the frame (tangent, normal x tangent,
-//              normal) in which all this was baked: shaders turn it to that of the pose
+//              is, and the number of the vertex. A mesh that moves has its nodes, skins, morph targets and
+//              clips, in the scene's pose, and in TEXCOORD_6 and TEXCOORD_7 the quaternion x y z w of the
+//              frame (tangent, normal x tangent, normal) in which all this was baked: shaders turn it to that
+//              of the pose
+// N_curvature.png  of an object whose morph targets change the mean curvature: target_curvature.h.
+//              curvature_of_targets of the object has the targets by name in their order, the rows of each,
+//              and the change in 1/mm of kCurvatureSteps steps, which the sum over the targets does not
+//              exceed
 // normals_red.png, normals_green.png, normals_spread.png
 //              baked normals (shaders/include/skin/baked_normals.glsl) over the atlas
 // thickness.png over the atlas: kThicknessMaxMm for a value of 1

@@ -141,10 +141,16 @@ Result<json> motion_json(const WebInput& input, const SceneObject& object,
     if (object.motion.empty()) return json();
     SceneObject moving = object;
     moving.mesh = web::with_tangents(object.mesh);
-    DERMIS_TRY_ASSIGN(const std::optional<Rig> rig, rig_of(moving, input.scene.motion.pose()));
-    if (rig) return web::add_motion(binaries.motion, *rig, number_on_page);
-    page.warnings.push_back("'" + object.name + "' does not move on the page: it is subdivided or displaced");
-    return json();
+    const Pose pose = input.scene.motion.pose();
+    DERMIS_TRY_ASSIGN(const std::optional<Rig> rig, rig_of(moving, pose));
+    if (!rig) {
+        page.warnings.push_back("'" + object.name +
+                                "' does not move on the page: it is subdivided or displaced");
+        return json();
+    }
+    DERMIS_TRY_ASSIGN(const std::vector<TargetCurvature> curvatures,
+                      target_curvatures(object, pose, web::used_targets(*rig)));
+    return web::add_motion(binaries.motion, *rig, curvatures, number_on_page);
 }
 
 // Without clips the page needs nothing of what moves; too large a motion is left out.

@@ -14,7 +14,8 @@ import { Color3 } from "@babylonjs/core/Maths/math.color.js";
 import { Vector3 } from "@babylonjs/core/Maths/math.vector.js";
 import { Mesh } from "@babylonjs/core/Meshes/mesh.js";
 import { VertexData } from "@babylonjs/core/Meshes/mesh.vertexData.js";
-import { metres, readGlb, readSettings, shadowFrustum } from "./SkinHeadFiles.js";
+import { changesIn, SkinHeadCurvature } from "./SkinHeadCurvature.js";
+import { metres, readGlb, readSettings, readTexels, shadowFrustum } from "./SkinHeadFiles.js";
 import { loadDirections, loadTexture, materialOf } from "./SkinHeadMaterial.js";
 import { loadSkinTable } from "./SkinMaterialPlugin.js";
 import { frameAttribute, headAttributes } from "./SkinSurfaceCode.js";
@@ -39,6 +40,18 @@ function addHeadAttributes(mesh, { TEXCOORD_1: atlas, TEXCOORD_2: bends, TEXCOOR
   if (frame) mesh.setVerticesData(frameAttribute, fours(frame, restOfFrame), false, 4);
 }
 
+// What gives a mesh the mean curvature of a part's targets, in the pose of the part.
+function followerOf(mesh, part, { TEXCOORD_2: bends, TEXCOORD_3: bend, TEXCOORD_5: plain }, texels, settings) {
+  const numbers = Float32Array.from({ length: plain.length / 2 }, (_, v) => plain[2 * v + 1]), posed = fours(bends, bend);
+  const curvature = new SkinHeadCurvature(changesIn(texels, settings, part.names, numbers), settings.most_per_mm, part.weights);
+  mesh.setVerticesData("skin_bends", posed, true, 4);
+  return () => {
+    if (!curvature.follow(part.posedWeights)) return;
+    curvature.perMm.forEach((perMm, v) => { posed[4 * v] = bends[2 * v] + perMm; });
+    mesh.updateVerticesData("skin_bends", posed);
+  };
+}
+
 // Its vertices are those of the world: of a part that moves in the pose.
 function meshOf(scene, name, { attributes, indices }, part) {
   const { POSITION: positions, NORMAL: normals, TANGENT: tangents, TEXCOORD_0: uvs } = attributes;
@@ -54,7 +67,7 @@ function meshOf(scene, name, { attributes, indices }, part) {
 // The clips of all objects by name.
 class SkinMotion {
   constructor() {
-    this.moving = [];  // { motion, drawn: [{ mesh, part }] }
+    this.moving = [];  // { motion, drawn: [{ mesh, part, follow }] }
     this.clips = [];
   }
 
@@ -71,10 +84,11 @@ class SkinMotion {
   pose(name, time_s) {
     for (const { motion, drawn } of this.moving) {
       motion.pose(name, time_s);
-      for (const { mesh, part: { posed } } of drawn) {
+      for (const { mesh, part: { posed }, follow } of drawn) {
         mesh.updateVerticesData("position", posed.positions);
         mesh.updateVerticesData("normal", posed.normals);
         mesh.updateVerticesData("tangent", posed.tangents);
+        follow();
       }
     }
   }
@@ -149,14 +163,16 @@ export async function loadSkinHead(scene, folder = new URL("./head/", import.met
     const made = await Promise.all(glb.materials.map((source, i) =>
       materialOf(scene, { source, glb, folder, settings: object.materials[i], shared })));
     skins.push(...made.map(({ skin }) => skin).filter(skin => skin));
-    const drawn = [];
+    const drawn = [], followed = object.curvature_of_targets;
+    const texels = followed && await readTexels(folder + followed.file);
     for (const primitive of glb.primitives) {
       const part = glb.motion?.parts.find(one => one.mesh === primitive.mesh), mesh = meshOf(scene, object.name, primitive, part), { material, settings: one } = made[primitive.material];
       mesh.material = material;
       meshes.push(mesh);
       mesh.receiveShadows = one.class !== "translucent";
       if (mesh.receiveShadows) casters.push(mesh);
-      drawn.push({ mesh, part });
+      const follows = followed && one.class === "skin";
+      drawn.push({ mesh, part, follow: follows ? followerOf(mesh, part, primitive.attributes, texels, followed) : () => {} });
     }
     if (glb.motion) motion.add(glb.motion, drawn);
   }

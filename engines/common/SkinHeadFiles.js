@@ -2,6 +2,7 @@
 // blobs. Lengths are metres where a name has no unit.
 
 import { SkinHeadMotion } from "./SkinHeadMotion.js";
+import { pictureOf, texelsOf } from "./SkinMipLevels.js";
 
 const kMmPerUnit = 1000, kShadowMapSide = 2048;
 const kArrays = { 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array };  // glTF 2.0, accessor.componentType
@@ -22,6 +23,9 @@ export async function readBytes(url) {
   if (!answer.ok) throw new Error(`A file of the head cannot be loaded from ${url}`);
   return answer.arrayBuffer();
 }
+
+// A promise of the texels of a picture beside it: { data, width, height }, RGBA in bytes.
+export const readTexels = async url => texelsOf(await pictureOf(new Blob([await readBytes(url)])));
 
 // Of the shadow map of a directional light: its side in texels, half the width that it covers, how far from the middle of the head the
 // light is, between which distances from it the map has depths, and the width of a texel.

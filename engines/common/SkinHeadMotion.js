@@ -70,11 +70,13 @@ function putTurned(to, i, m, stride, from) {
 // A mesh of the file: what it is, and `posed`, what it is in the pose: positions, normals, tangents (their fourth number is the handedness).
 class Part {
   constructor(json, node, numbers) {
-    const { mesh, skin } = json.nodes[node], { primitives, weights = [] } = json.meshes[mesh], { attributes, targets = [] } = primitives[0];
+    const { mesh, skin } = json.nodes[node], { primitives, weights = [], extras } = json.meshes[mesh], { attributes, targets = [] } = primitives[0];
     this.node = node;
     this.mesh = mesh;
     this.skin = skin;
-    this.weights = weights;
+    this.weights = weights;  // of the targets, as the file opens
+    this.posedWeights = weights;
+    this.names = extras?.targetNames ?? [];
     [this.positions, this.normals, this.tangents] = ["POSITION", "NORMAL", "TANGENT"].map(name => numbers(attributes[name]));
     this.targets = targets.map(target => ({ moves: numbers(target.POSITION), turns: numbers(target.NORMAL) }));
     this.sets = [];
@@ -97,6 +99,7 @@ class Part {
 
   // matrices: of the joints, or one of all vertices.
   pose(weights, matrices) {
+    this.posedWeights = weights;
     const { positions: p, normals: n } = this.morph(weights), { posed, tangents: t } = this, skinned = this.sets.length > 0;
     let m = matrices[0], turn = turnOf(m);
     this.mirrored = determinant(m) < 0;  // its triangles show their backs

@@ -23,12 +23,17 @@ function halved({ data, width, height }) {
   return { data: halves, width: wide, height: high };
 }
 
-// Of a picture that a canvas can draw: [{ data, width, height }], RGBA in bytes, the picture first, down to 1 x 1.
-export function mipLevels(picture) {
+// Of a picture that a canvas can draw: { data, width, height }, RGBA in bytes.
+export function texelsOf(picture) {
   const { width, height } = picture, context = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
   context.drawImage(picture, 0, 0);
-  let level = context.getImageData(0, 0, width, height);
-  const levels = [{ data: new Uint8Array(level.data.buffer), width, height }];
+  return { data: new Uint8Array(context.getImageData(0, 0, width, height).data.buffer), width, height };
+}
+
+// [{ data, width, height }], the picture first, down to 1 x 1.
+export function mipLevels(picture) {
+  let level = texelsOf(picture);
+  const levels = [level];
   while (level.width > 1 || level.height > 1) {
     level = halved(level);
     levels.push({ ...level, data: new Uint8Array(level.data.map(Math.round)) });

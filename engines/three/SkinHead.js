@@ -6,12 +6,13 @@
 //     renderer.shadowMap.enabled = true;
 
 import {
-  AnimationMixer, Color, DataTexture, DirectionalLight, DoubleSide, EquirectangularReflectionMapping, Group, LinearFilter,
+  AnimationMixer, BufferAttribute, Color, DataTexture, DirectionalLight, DoubleSide, EquirectangularReflectionMapping, Group, LinearFilter,
   LinearMipmapLinearFilter, LoopOnce, NoColorSpace, ObjectSpaceNormalMap, PerspectiveCamera, PointLight, SpotLight, TextureLoader, Vector3,
 } from "three/webgpu";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/addons/loaders/HDRLoader.js";
-import { metres, readBytes, readSettings, shadowFrustum } from "./SkinHeadFiles.js";
+import { changesIn, SkinHeadCurvature } from "./SkinHeadCurvature.js";
+import { metres, readBytes, readSettings, readTexels, shadowFrustum } from "./SkinHeadFiles.js";
 import { mipLevels, pictureOf } from "./SkinMipLevels.js";
 import { loadSkinTable, SkinNodeMaterial } from "./SkinNodeMaterial.js";
 
@@ -45,10 +46,28 @@ function skinMaterial(source, settings, shared) {
   });
 }
 
+// The mean curvature follows the weights of the mesh's targets, whoever sets them, before the mesh is drawn.
+function followTargets(mesh, texels, settings) {
+  const { geometry, morphTargetDictionary } = mesh, names = [];
+  for (const [name, i] of Object.entries(morphTargetDictionary)) names[i] = name;
+  const numbers = geometry.getAttribute("texcoord_5"), given = geometry.getAttribute("uv2"), { count } = given;
+  const places = Float32Array.from({ length: count }, (_, v) => numbers.getY(v));
+  const curvature = new SkinHeadCurvature(changesIn(texels, settings, names, places), settings.most_per_mm, mesh.morphTargetInfluences);
+  const bends = new BufferAttribute(new Float32Array(2 * count), 2);
+  for (let v = 0; v < count; ++v) bends.setXY(v, given.getX(v), given.getY(v));
+  geometry.setAttribute("uv2", bends);
+  mesh.onBeforeRender = () => {
+    if (!curvature.follow(mesh.morphTargetInfluences)) return;
+    curvature.perMm.forEach((perMm, v) => bends.setX(v, given.getX(v) + perMm));
+    bends.needsUpdate = true;
+  };
+}
+
 async function loadObject(folder, object, shared, skins) {
   const { scene, animations } = await new GLTFLoader().loadAsync(folder + object.file);
   const settings = new Map(object.materials.map(one => [one.name, one])), made = new Map();
-  const meshes = [];
+  const meshes = [], followed = object.curvature_of_targets;
+  const texels = followed && await readTexels(folder + followed.file);
   scene.traverse(node => { if (node.isMesh) meshes.push(node); });
   for (const mesh of meshes) {
     const source = mesh.material, one = settings.get(source.name);
@@ -65,6 +84,7 @@ async function loadObject(folder, object, shared, skins) {
       skins.push(skin);
     }
     mesh.material = made.get(source);
+    if (followed && mesh.morphTargetInfluences) followTargets(mesh, texels, followed);
   }
   return { scene, animations };
 }

@@ -143,6 +143,21 @@ class HeadPackage : public testing::TestWithParam<const char*> {
         return {square(all, 0, 4), square(all, 1, 4), square(all, 2, 4), square(all, 3, 4), read("mistake")};
     }
 
+    /// Of a package, in its settings: nothing is known of the curvature of its targets.
+    void forget_curvature_of_targets() {
+        fs::path file;
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path("package")))
+            if (entry.path().filename() == "scene.json") file = entry.path();
+        const auto text = read_text_file(file);
+        ASSERT_TRUE(text) << text.error().message;
+        auto scene = nlohmann::json::parse(*text);
+        EXPECT_EQ(scene["objects"][0].erase("curvature_of_targets"), 1u);
+        ASSERT_TRUE(write_text_file(file, scene.dump()));
+    }
+
+    /// What the package's curvature changes in the picture of a moment, against what it changes in Dermis.
+    void expect_curvature_follows(const Image& followed, const Image& kept, const std::string& moment);
+
     /// Against Dermis with what was baked at rest: the errors of scattering's effect, and Lambert's motion.
     void expect_motion(const Motion& drawn, const std::string& moment, const std::string& settings,
                        double most_error);
@@ -168,6 +183,8 @@ class MovingHeadPackage : public HeadPackage {
   protected:
     MovingHeadPackage() { use_turned_bust(); }
 };
+
+class FollowingHeadPackage : public MovingHeadPackage {};
 
 class MovingFacePackage : public HeadPackage {
   protected:
@@ -243,6 +260,7 @@ INSTANTIATE_TEST_SUITE_P(, BrowserHead,
 INSTANTIATE_TEST_SUITE_P(, MovingHeadPackage,
                          testing::Values("three", "three_webgpu", "babylon", "babylon_webgpu", "godot"),
                          kName);
+INSTANTIATE_TEST_SUITE_P(, FollowingHeadPackage, testing::Values("three", "babylon"), kName);
 INSTANTIATE_TEST_SUITE_P(, MovingFacePackage, testing::Values("godot"), kName);
 INSTANTIATE_TEST_SUITE_P(, GodotHead, testing::Values("godot"), kName);
 INSTANTIATE_TEST_SUITE_P(, DrawnHead, testing::Values("unity", "unreal"), kName);
@@ -306,6 +324,18 @@ void HeadPackage::expect_motion(const Motion& drawn, const std::string& moment, 
     EXPECT_NEAR(distance(drawn.moved_lambert, drawn.rest_lambert), motion, 0.4 * motion);
 }
 
+void HeadPackage::expect_curvature_follows(const Image& followed, const Image& kept,
+                                           const std::string& moment) {
+    const auto with = [&](const std::string& curvature) {
+        return rendered(kPreintegrated + "curvature" + moment + " --scene animation.rest_bakes=normals+" +
+                        curvature + "+occlusion");
+    };
+    const Image expected = change(with("stencils"), with("curvature")), nothing(48, 48, 3);
+    const double error = distance(change(followed, kept), expected) / distance(expected, nothing);
+    RecordProperty("error", std::to_string(error));
+    EXPECT_LT(error, 0.5) << "1 where the curvature stays";
+}
+
 }  // namespace
 
 TEST_P(BrowserHead, has_the_renderers_share_and_a_mistake_loses_it) {
@@ -338,6 +368,16 @@ TEST_P(MovingHeadPackage, plays_its_clip_and_the_bakes_turn_with_the_surface) {
     const bool is_godot = engine() == "godot";
     expect_motion(draw_motion("greet", "1.7"), " --clip greet --time 1.7",
                   is_godot ? " --set shadow=plain" : "", is_godot ? 0.35 : 0.3);
+}
+
+TEST_P(FollowingHeadPackage, has_the_curvature_of_its_targets) {
+    const std::string query = device() + "&gain&clip=greet&time=3.05";
+    ProgramResult drawn = draw({{"followed", query}});
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    forget_curvature_of_targets();
+    drawn = draw({{"kept", query}});
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    expect_curvature_follows(read("followed"), read("kept"), " --clip greet --time 3.05");
 }
 
 // Godot applies skins and targets before its shaders, without tangents.

@@ -302,6 +302,27 @@ TEST_F(MovingPage, in_a_browser_a_pose_of_a_clip_is_the_renderers) {
     }
 }
 
+TEST_F(MovingPage, in_a_browser_has_the_curvature_of_its_targets) {
+    if (!has_browser()) GTEST_SKIP() << "no chromium or no node here";
+    ASSERT_TRUE(write_text_file(directory_.path / "sheet.gltf", test::moving_sheet()));
+    const fs::path scene = write_scene("sheet.gltf", "eye_mm = [60, 40, 500]\ntarget_mm = [0, 0, 20]"),
+                   folder = write_page(scene.string());
+    const std::string moment = "clip=nod&time=1.7", ours_then = "--clip nod --time 1.7";
+    const Image followed = theirs(folder, moment);
+    auto json = scene_of(folder);
+    auto& target = json["objects"][0]["motion"]["meshes"][0]["primitives"][0]["targets"][0];
+    EXPECT_EQ(target.erase("CURVATURE"), 1u);
+    ASSERT_TRUE(write_text_file(folder / "scene.json", json.dump()));
+    const Image kept = theirs(folder, moment);
+    const Image our_kept = ours(scene, ours_then + " --scene animation.rest_bakes=curvature"),
+                our_posed = ours(scene, ours_then);
+    const double error = missed(our_kept, our_posed, kept, followed);
+    RecordProperty("error", std::to_string(error));
+    // Less would be missed where the curvatures in all directions change alike: the page has the change of
+    // their mean.
+    EXPECT_LT(error, 0.85) << "1 where the curvature stays";
+}
+
 TEST_F(MovingPage, in_a_browser_plays_and_pauses_its_clips) {
     if (!has_browser()) GTEST_SKIP() << "no chromium or no node here";
     ASSERT_TRUE(write_text_file(directory_.path / "sheet.gltf", test::moving_sheet()));

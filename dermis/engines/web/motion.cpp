@@ -6,7 +6,8 @@
 //     tangent           4 x s8
 //     influences        4 x u16 joints and 4 x u16 weights a set
 //     morph target      vertices that it moves as u16 (u32), changes of their positions 3 x s16 and of their
-//                       normals 3 x s8
+//                       normals 3 x s8; CURVATURE, the change of the mean curvature, s8 in steps
+//                       (target_curvature.h), of a target that changes it
 //
 // A mesh has "vertices", the vertices of the page that its own are. Targets that no clip uses are left out.
 
@@ -128,22 +129,31 @@ void add_influences(Binary& binary, const PartOnPage& on_page, json& attributes)
     }
 }
 
-json add_target(Binary& binary, const PartOnPage& on_page, const RigTarget& target) {
+// `curvature`: null where the target changes none.
+json add_target(Binary& binary, const PartOnPage& on_page, const RigTarget& target,
+                const TargetCurvature* curvature) {
     float most = 0;
     for (const uint32_t v : on_page.own) most = std::max(most, length(target.moves_mm[v]));
     std::vector<uint32_t> places;
     std::vector<float> moves, turns;
+    std::vector<int8_t> bends;
     for (uint32_t i = 0; i < on_page.own.size(); ++i) {
         const Vec3 move = target.moves_mm[on_page.own[i]], turn = target.turns[on_page.own[i]];
         if (length(move) <= most * kLeastMove && length(turn) < kLeastTurn) continue;
         places.push_back(i);
         append(moves, move, 0.001f);
         append(turns, turn);
+        if (curvature) bends.push_back(curvature->changes[on_page.part.vertices[on_page.own[i]]]);
     }
     json positions = add_scaled<int16_t>(binary, moves), normals = add_scaled<int8_t>(binary, turns);
     positions["places"] = normals["places"] = add_vertices(binary, places);
     positions["total"] = normals["total"] = 3 * on_page.own.size();
-    return {{"POSITION", positions}, {"NORMAL", normals}};
+    json made = {{"POSITION", positions}, {"NORMAL", normals}};
+    if (!curvature) return made;
+    made["CURVATURE"] = add_numbers(binary, bends);
+    made["CURVATURE"]["places"] = positions["places"];
+    made["CURVATURE"]["total"] = on_page.own.size();
+    return made;
 }
 
 // The targets of a part that a clip moves or that its pose has.
@@ -162,7 +172,8 @@ std::vector<size_t> used_targets(const Rig& rig, const RigPart& part) {
     return used;
 }
 
-json mesh_json(Binary& binary, const PartOnPage& on_page, const std::vector<size_t>& targets) {
+json mesh_json(Binary& binary, const PartOnPage& on_page, const std::vector<size_t>& targets,
+               std::span<const TargetCurvature> curvatures) {
     const Mesh& mesh = on_page.part.mesh;
     std::vector<float> positions, normals, tangents;
     for (const uint32_t v : on_page.own) {
@@ -178,7 +189,10 @@ json mesh_json(Binary& binary, const PartOnPage& on_page, const std::vector<size
     json primitive = {{"attributes", std::move(attributes)}, {"targets", json::array()}};
     json weights = json::array();
     for (const size_t t : targets) {
-        primitive["targets"].push_back(add_target(binary, on_page, on_page.part.targets[t]));
+        const RigTarget& target = on_page.part.targets[t];
+        const auto found = std::ranges::find(curvatures, target.name, &TargetCurvature::name);
+        primitive["targets"].push_back(
+            add_target(binary, on_page, target, found == curvatures.end() ? nullptr : &*found));
         weights.push_back(to_json(on_page.part.target_weights[t]));
     }
     return {{"primitives", {std::move(primitive)}},
@@ -231,13 +245,24 @@ json clip_json(Binary& binary, const RigClip& clip, const Rig& rig,
 
 }  // namespace
 
-json add_motion(Binary& binary, const Rig& rig, std::span<const uint32_t> number_on_page) {
+std::vector<std::string> used_targets(const Rig& rig) {
+    std::vector<std::string> names;
+    for (const RigPart& part : rig.parts)
+        for (const size_t t : used_targets(rig, part))
+            if (const std::string& name = part.targets[t].name; std::ranges::find(names, name) == names.end())
+                names.push_back(name);
+    return names;
+}
+
+json add_motion(Binary& binary, const Rig& rig, std::span<const TargetCurvature> curvatures,
+                std::span<const uint32_t> number_on_page) {
     json made = {{"scene", 0},
                  {"scenes", {{{"nodes", {0}}}}},
                  {"nodes", json::array()},
                  {"meshes", json::array()},
                  {"skins", json::array()},
-                 {"animations", json::array()}};
+                 {"animations", json::array()},
+                 {"most_curvature_per_mm", to_json(kMostMeanCurvatureChange)}};
     for (const RigNode& node : rig.nodes) made["nodes"].push_back(node_json(node));
     std::vector<std::vector<size_t>> targets;
     for (const RigPart& part : rig.parts) {
@@ -245,7 +270,8 @@ json add_motion(Binary& binary, const Rig& rig, std::span<const uint32_t> number
         json& node = made["nodes"][part.node];
         node["mesh"] = made["meshes"].size();
         if (part.skin) node["skin"] = *part.skin;
-        made["meshes"].push_back(mesh_json(binary, part_on_page(part, number_on_page), targets.back()));
+        made["meshes"].push_back(
+            mesh_json(binary, part_on_page(part, number_on_page), targets.back(), curvatures));
     }
     for (const RigSkin& skin : rig.skins) {
         std::vector<float> binds;

@@ -13,6 +13,7 @@
 
 #include "dermis/base/result.h"
 #include "dermis/base/vec.h"
+#include "dermis/engines/target_curvature.h"
 #include "dermis/engines/web.h"
 #include "dermis/image/image.h"
 #include "dermis/mesh/mesh.h"
@@ -73,9 +74,13 @@ struct MeshOnPage {
 /// A copy with tangents, where it has none as the page makes them.
 [[nodiscard]] Mesh with_tangents(Mesh mesh);
 
-/// What moves a mesh, into `binary` and as JSON: motion.cpp. `rig` is of the mesh with_tangents();
-/// `number_on_page` as MeshOnPage has it.
+/// Names of the morph targets that a clip moves or that the pose has.
+[[nodiscard]] std::vector<std::string> used_targets(const Rig& rig);
+
+/// What moves a mesh, into `binary` and as JSON: motion.cpp. `rig` is of the mesh with_tangents(), which
+/// has the vertices of the curvatures; `number_on_page` as MeshOnPage has it.
 [[nodiscard]] nlohmann::json add_motion(Binary& binary, const Rig& rig,
+                                        std::span<const TargetCurvature> curvatures,
                                         std::span<const uint32_t> number_on_page);
 
 /// The image behind a texture of shaders/include/surface.glsl, at most `side` texels wide and high; empty:
