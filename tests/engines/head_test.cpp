@@ -260,7 +260,7 @@ INSTANTIATE_TEST_SUITE_P(, BrowserHead,
 INSTANTIATE_TEST_SUITE_P(, MovingHeadPackage,
                          testing::Values("three", "three_webgpu", "babylon", "babylon_webgpu", "godot"),
                          kName);
-INSTANTIATE_TEST_SUITE_P(, FollowingHeadPackage, testing::Values("three", "babylon"), kName);
+INSTANTIATE_TEST_SUITE_P(, FollowingHeadPackage, testing::Values("three", "babylon", "godot"), kName);
 INSTANTIATE_TEST_SUITE_P(, MovingFacePackage, testing::Values("godot"), kName);
 INSTANTIATE_TEST_SUITE_P(, GodotHead, testing::Values("godot"), kName);
 INSTANTIATE_TEST_SUITE_P(, DrawnHead, testing::Values("unity", "unreal"), kName);

@@ -6,15 +6,18 @@ extends Node3D
 const FOLDER := "res://addons/dermis_skin/head/"
 const TABLE := "res://addons/dermis_skin/skin_table.exr"
 const MM_PER_UNIT := 1000.0
+const MOST_TARGETS := 64  # of skin_head_surface.gdshaderinc
 
 var settings: Dictionary
 var skins: Array[ShaderMaterial] = []
 var lights: Array[Light3D] = []
 var players: Array[AnimationPlayer] = []  # of the clips, one for each object that moves
 var environment: Environment
+var _followed: Array[Dictionary] = []  # skins whose curvature follows the targets of their mesh
 
 
 func _ready() -> void:
+	process_priority = 1  # after the players
 	settings = (load(FOLDER + "scene.json") as JSON).data
 	for object: Dictionary in settings.objects:
 		_add_object(object)
@@ -55,8 +58,38 @@ func _add_object(object: Dictionary) -> void:
 			if one.class == "skin":
 				var skin := _skin_material(one)
 				child.set_surface_override_material(surface, skin)
+				if object.has("curvature_of_targets"):
+					_follow_targets(child, skin, object.curvature_of_targets)
 			elif one.class == "translucent":
 				child.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_OFF
+
+
+func _follow_targets(mesh: MeshInstance3D, skin: ShaderMaterial, changes: Dictionary) -> void:
+	var rows := PackedInt32Array()  # the first one of each target; below 0: it changes nothing
+	var opened := PackedFloat32Array()
+	for i in mesh.get_blend_shape_count():
+		rows.append(changes.targets.find(String((mesh.mesh as ArrayMesh).get_blend_shape_name(i))) * int(changes.rows))
+		opened.append(mesh.get_blend_shape_value(i))
+	for material: ShaderMaterial in [skin, skin.next_pass]:
+		material.set_shader_parameter("curvature_of_targets", load(FOLDER + changes.file))
+		material.set_shader_parameter("most_change_per_mm", changes.most_per_mm)
+	_followed.append({"mesh": mesh, "skin": skin, "rows": rows, "opened": opened, "weights": PackedVector2Array()})
+
+
+# The weights of the targets, whoever sets them, for the shaders.
+func _process(_delta: float) -> void:
+	for one: Dictionary in _followed:
+		var weights := PackedVector2Array()
+		for i: int in one.rows.size():
+			var weight: float = one.mesh.get_blend_shape_value(i) - one.opened[i]
+			if one.rows[i] >= 0 and weight != 0.0 and weights.size() < MOST_TARGETS:
+				weights.append(Vector2(one.rows[i], weight))
+		if weights == one.weights:
+			continue
+		one.weights = weights
+		for material: ShaderMaterial in [one.skin, one.skin.next_pass]:
+			material.set_shader_parameter("target_count", weights.size())
+			material.set_shader_parameter("target_weights", weights)
 
 
 # The head at a time of a clip; see the list of a player's animations for the clips.
