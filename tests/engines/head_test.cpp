@@ -393,6 +393,15 @@ TEST_P(MovingUnityHead, plays_its_clip_and_the_bakes_turn_with_the_surface) {
     EXPECT_NE(none.err.find("no clip 'walk'"), std::string::npos) << none.err;
 }
 
+TEST_P(MovingUnityHead, has_the_curvature_of_its_targets) {
+    use_turned_bust();
+    export_package();
+    const std::string moment = " --clip greet --time 3.05";
+    const Image followed = drawn("followed", "--gain" + moment);
+    forget_curvature_of_targets();
+    expect_curvature_follows(followed, drawn("kept", "--gain" + moment), moment);
+}
+
 TEST_P(MovingUnityHead, follows_its_joints_and_targets) {
     if (!fs::exists(face())) GTEST_SKIP() << face() << " is needed";
     use_face();

@@ -21,6 +21,16 @@ namespace Dermis
         const float kMmPerUnit = 1000.0f;
 
         [SerializeField] TextAsset scene;
+        [SerializeField] List<Follower> followers = new List<Follower>();
+
+        // A mesh whose skin's curvature follows the weights of its targets.
+        [Serializable] sealed class Follower
+        {
+            public SkinnedMeshRenderer renderer;
+            public int[] targets;    // number of each in the picture; below 0: it changes nothing
+            public float[] opened;   // their weights as the head opens
+            [NonSerialized] public Texture2D weights;
+        }
 
         // scene.json, as JsonUtility reads it.
         [Serializable] sealed class Settings
@@ -39,7 +49,8 @@ namespace Dermis
         [Serializable] sealed class Bounds { public float[] center_mm; public float radius_mm; }
         [Serializable] sealed class Sky { public float[] ambient_probe; }
         [Serializable] sealed class Depth { public string file; public float max_mm; }
-        [Serializable] sealed class Item { public string file, name; public Surface[] materials; }
+        [Serializable] sealed class Item { public string file, name; public Surface[] materials; public Changes curvature_of_targets; }
+        [Serializable] sealed class Changes { public string file; public string[] targets; public float rows, most_per_mm; }
         [Serializable] sealed class Surface
         {
             public string name, @class;
@@ -68,6 +79,36 @@ namespace Dermis
             Settings settings = JsonUtility.FromJson<Settings>(scene.text);
             SetAmbientProbe(settings.environment);
             WarnOfProject(settings);
+        }
+
+        // Before the frame is drawn, whoever has set the weights.
+        void LateUpdate()
+        {
+            foreach (Follower one in followers)
+                if (one.renderer != null) Follow(one);
+        }
+
+        static float Weight(SkinnedMeshRenderer renderer, int target) =>
+            renderer.GetBlendShapeWeight(target) / renderer.sharedMesh.GetBlendShapeFrameWeight(target, 0);
+
+        static void Follow(Follower one)
+        {
+            if (one.weights == null) one.weights = new Texture2D(one.targets.Length, 1, TextureFormat.RGBAHalf, false, true);
+            var changed = new Color[one.targets.Length];
+            int count = 0;
+            for (int i = 0; i < one.targets.Length; ++i)
+            {
+                float weight = Weight(one.renderer, i) - one.opened[i];
+                if (one.targets[i] >= 0 && weight != 0) changed[count++] = new Color(one.targets[i], weight, 0);
+            }
+            one.weights.SetPixels(changed);
+            one.weights.Apply(false);
+            foreach (Material material in one.renderer.sharedMaterials)
+            {
+                if (material == null || !material.HasProperty("_TargetWeights")) continue;
+                material.SetTexture("_TargetWeights", one.weights);
+                material.SetFloat("_TargetCount", count);
+            }
         }
 
         static void SetAmbientProbe(Sky sky)
@@ -107,6 +148,7 @@ namespace Dermis
         {
             scene = Load<TextAsset>(kFolder + "scene.json");
             if (scene == null) return;
+            followers.Clear();
             while (transform.childCount > 0) DestroyImmediate(transform.GetChild(0).gameObject);
             Settings settings = JsonUtility.FromJson<Settings>(scene.text);
             foreach (Item item in settings.objects) AddObject(item, settings);
@@ -136,11 +178,25 @@ namespace Dermis
                 for (int i = 0; i < materials.Length; ++i)
                 {
                     if (materials[i] == null || !surfaces.TryGetValue(materials[i].name, out Surface one)) continue;
-                    if (one.@class == "skin") materials[i] = SkinMaterial(one, settings);
+                    if (one.@class == "skin") materials[i] = SkinMaterial(one, item, settings);
                     if (one.@class == "translucent") renderer.shadowCastingMode = ShadowCastingMode.Off;
                 }
                 renderer.sharedMaterials = materials;
+                if (renderer is SkinnedMeshRenderer skinned && !string.IsNullOrEmpty(item.curvature_of_targets?.file))
+                    followers.Add(FollowerOf(skinned, item.curvature_of_targets.targets));
             }
+        }
+
+        static Follower FollowerOf(SkinnedMeshRenderer renderer, string[] targets)
+        {
+            int count = renderer.sharedMesh.blendShapeCount;
+            var made = new Follower { renderer = renderer, targets = new int[count], opened = new float[count] };
+            for (int i = 0; i < count; ++i)
+            {
+                made.targets[i] = Array.IndexOf(targets, renderer.sharedMesh.GetBlendShapeName(i));
+                made.opened[i] = Weight(renderer, i);
+            }
+            return made;
         }
 
         void Bind(Material skin, string property, string file)
@@ -148,7 +204,7 @@ namespace Dermis
             if (!string.IsNullOrEmpty(file)) skin.SetTexture(property, Load<Texture2D>(kFolder + file));
         }
 
-        Material SkinMaterial(Surface one, Settings settings)
+        Material SkinMaterial(Surface one, Item item, Settings settings)
         {
             var skin = new Material(Load<Shader>(kFolder + "SkinHead.shader")) { name = one.name };
             skin.SetTexture("_SkinTable", Load<Texture2D>(kTable));
@@ -173,6 +229,12 @@ namespace Dermis
             {
                 Bind(skin, "_ThicknessMap", settings.thickness.file);
                 skin.SetFloat("_ThicknessMaxMm", settings.thickness.max_mm);
+            }
+            if (!string.IsNullOrEmpty(item.curvature_of_targets?.file))
+            {
+                Bind(skin, "_CurvatureOfTargets", item.curvature_of_targets.file);
+                skin.SetFloat("_RowsOfTarget", item.curvature_of_targets.rows);
+                skin.SetFloat("_MostChangePerMm", item.curvature_of_targets.most_per_mm);
             }
             return skin;
         }

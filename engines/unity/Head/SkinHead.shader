@@ -24,6 +24,11 @@ Shader "Dermis/Skin Head"
         [ToggleUI] _Scattering("Scattering; off: Lambert", Float) = 1
         [ToggleUI] _CurvedGain("What curved skin returns beyond flat skin", Float) = 1
         [ToggleUI] _Moves("The mesh moves: it has the frames of its bakes", Float) = 0
+        [NoScaleOffset] _CurvatureOfTargets("Changes of the curvature by morph targets: linear", 2D) = "black" {}
+        [NoScaleOffset] _TargetWeights("Their weights: set by the script", 2D) = "black" {}
+        _TargetCount("Targets that change the curvature now", Float) = 0
+        _RowsOfTarget("Rows of a target", Float) = 1
+        _MostChangePerMm("Largest change of the mean curvature in 1/mm", Float) = 0
         [NoScaleOffset] _SkinTable("Skin table", 2D) = "black" {}
     }
     SubShader

@@ -25,6 +25,8 @@ TEXTURE2D(_NormalsGreen);
 TEXTURE2D(_NormalsSpread);
 TEXTURE2D(_ThicknessMap);
 SAMPLER(sampler_ThicknessMap);
+TEXTURE2D(_CurvatureOfTargets);
+TEXTURE2D(_TargetWeights);
 TEXTURE2D(_SkinTable);
 SAMPLER(sampler_SkinTable);
 
@@ -81,6 +83,20 @@ void SkinSetAxes(SkinHeadAttributes input, inout SkinHeadVaryings output) {
     output.axisZ = skin_turned(frame, float3(t.z, b.z, n.z));
 }
 
+// What morph targets add to the mean curvature of a vertex. In the picture of their changes, a target has rows from the top, a vertex a
+// texel: 127ths of _MostChangePerMm around 128. _TargetWeights: number of a target, its weight beyond that in which the head opens. Limited:
+// in a fold, whose walls come close, the sum would be too much.
+float SkinChangeByTargets(int vertex) {
+    int wide = (int)_CurvatureOfTargets_TexelSize.z, top = (int)_CurvatureOfTargets_TexelSize.w - 1;
+    float steps = 0.0;
+    for (int i = 0; i < (int)_TargetCount; ++i) {
+        float2 target = LOAD_TEXTURE2D(_TargetWeights, int2(i, 0)).xy;
+        int row = (int)target.x * (int)_RowsOfTarget + vertex / wide;
+        steps += target.y * (255.0 * LOAD_TEXTURE2D(_CurvatureOfTargets, int2(vertex % wide, top - row)).r - 128.0);
+    }
+    return clamp(steps / 127.0, -1.0, 1.0) * _MostChangePerMm;
+}
+
 SkinHeadVaryings SkinHeadVertex(SkinHeadAttributes input) {
     SkinHeadVaryings output = (SkinHeadVaryings)0;
     UNITY_SETUP_INSTANCE_ID(input);
@@ -92,7 +108,8 @@ SkinHeadVaryings SkinHeadVertex(SkinHeadAttributes input) {
     output.normalAndOcclusion = float4(TransformObjectToWorldNormal(input.normalOS), input.occlusion.x);
     output.tangentWS = TransformObjectToWorldDir(input.tangentOS.xyz);
     SkinSetAxes(input, output);
-    output.bends = float3(input.bends.x, 1.0 - input.bends.y, input.bendAndRed.x);
+    int vertex = (int)(1.5 - input.occlusion.y);
+    output.bends = float3(input.bends.x + SkinChangeByTargets(vertex), 1.0 - input.bends.y, input.bendAndRed.x);
     output.scattered = float3(1.0 - input.bendAndRed.y, input.greenAndBlue.x, 1.0 - input.greenAndBlue.y);
     return output;
 }

@@ -19,6 +19,10 @@ CBUFFER_START(UnityPerMaterial)
     float _Scattering;
     float _CurvedGain;
     float _Moves;
+    float _TargetCount;
+    float _RowsOfTarget;
+    float _MostChangePerMm;
+    float4 _CurvatureOfTargets_TexelSize;
     float4 _NormalsRed_TexelSize;
     float4 _SkinTable_TexelSize;
 CBUFFER_END

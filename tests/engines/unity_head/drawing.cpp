@@ -176,7 +176,7 @@ Result<std::vector<gpu::Draw>> head_draws(gpu::Device& device, const json& scene
                                      {settings.clip, settings.time_s}));
         for (const json& surface : object["materials"]) {
             if (surface["class"] != "skin") continue;
-            DERMIS_TRY_ASSIGN(Material material, make_material(settings.package, scene, surface));
+            DERMIS_TRY_ASSIGN(Material material, make_material(settings.package, scene, object, surface));
             material.values["_CurvedGain"] = {settings.gain ? 1.0f : 0.0f};
             material.values["_Scattering"] = {settings.lambert ? 0.0f : 1.0f};
             DERMIS_TRY(spoil(settings.mistake, material, primitives));
@@ -190,6 +190,13 @@ Result<std::vector<gpu::Draw>> head_draws(gpu::Device& device, const json& scene
             for (const Primitive& one : primitives) {
                 if (one.material != std::string(surface["name"])) continue;
                 DERMIS_TRY_ASSIGN(gpu::Geometry mesh, uploaded(device, settings.package, one));
+                if (object.contains("curvature_of_targets")) {
+                    const gpu::TextureData weights =
+                        target_weights(one, object["curvature_of_targets"]["targets"]);
+                    DERMIS_TRY_ASSIGN(gpu::Texture texture, gpu::Texture::upload(device, weights));
+                    draw.textures["_TargetWeights"] = &uploads.textures.emplace_back(std::move(texture));
+                    draw.values["_TargetCount"] = float(weights.width);
+                }
                 draw.geometry = &uploads.meshes.emplace_back(std::move(mesh));
                 draw.index_count = uint32_t(one.indices.size());
                 draws.push_back(draw);

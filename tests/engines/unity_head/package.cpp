@@ -1,5 +1,6 @@
 #include "engines/unity_head/package.h"
 
+#include <algorithm>
 #include <regex>
 
 #include "dermis/base/file.h"
@@ -40,17 +41,19 @@ Result<std::string> meta_value(const std::string& meta, const std::string& name)
 
 // Where an expression of SkinHead.cs leads in scene.json: "one.maps?.normal", "settings.baked_normals[0]",
 // "1".
-json evaluated(std::string expression, const json& settings, const json& surface) {
+json evaluated(std::string expression, const json& settings, const json& item, const json& surface) {
     std::smatch found;
     if (std::regex_match(expression, found, std::regex("FromLinear\\(Numbers\\((.*)\\)\\)")))
         expression = found[1];
     if (std::regex_match(expression, found, std::regex("(.*) \\? 1 : 0")))
-        return json(evaluated(found[1], settings, surface) == json(true) ? 1.0 : 0.0);
+        return json(evaluated(found[1], settings, item, surface) == json(true) ? 1.0 : 0.0);
     if (std::regex_match(expression, std::regex("[0-9.]+"))) return json(std::stod(expression));
     expression = std::regex_replace(expression, std::regex("\\?"), "");
-    const bool of_surface = expression.starts_with("one.");
-    if (!of_surface && !expression.starts_with("settings.")) return json();
-    const json* at = of_surface ? &surface : &settings;
+    const json* at = expression.starts_with("one.")        ? &surface
+                     : expression.starts_with("item.")     ? &item
+                     : expression.starts_with("settings.") ? &settings
+                                                           : nullptr;
+    if (!at) return json();
     const std::regex step("\\.(\\w+)|\\[(\\d)\\]");
     for (std::sregex_iterator i(expression.begin(), expression.end(), step), end; i != end; ++i) {
         const std::string name = (*i)[1], index = (*i)[2];
@@ -83,6 +86,7 @@ void read_properties(const std::string& shader, Material& material) {
 Result<std::vector<Primitive>> import_glb(const fs::path& path, const Moment& moment) {
     DERMIS_TRY_ASSIGN(const Glb glb, read_glb(path));
     DERMIS_TRY_ASSIGN(const std::vector<PosedNode> nodes, posed_nodes(glb, moment));
+    DERMIS_TRY_ASSIGN(const std::vector<PosedNode> opened, posed_nodes(glb, {}));
     std::vector<Primitive> primitives;
     for (size_t node = 0; node < nodes.size(); ++node) {
         const json& source = glb.document["nodes"][node];
@@ -95,6 +99,10 @@ Result<std::vector<Primitive>> import_glb(const fs::path& path, const Moment& mo
             if (!shape.tangents.empty()) as_unity(made, "TANGENT", shape.tangents);
             for (const auto& [name, accessor] : one["attributes"].items())
                 if (name.starts_with("TEXCOORD_")) as_unity(made, name, floats_of(glb, accessor));
+            const json& mesh = glb.document["meshes"][size_t(source["mesh"])];
+            if (mesh.contains("extras")) made.targets = mesh["extras"].value("targetNames", made.targets);
+            for (size_t i = 0; i < made.targets.size(); ++i)
+                made.target_weights.push_back(nodes[node].weights[i] - opened[node].weights[i]);
             made.indices = integers_of(glb, one["indices"]);
             made.material = glb.document["materials"][size_t(one["material"])]["name"];
             primitives.push_back(std::move(made));
@@ -110,7 +118,24 @@ Result<gpu::TextureData> import_picture(const fs::path& path) {
     return drawn_head::imported_picture(path, srgb == "1", has_mips == "1", true);
 }
 
-Result<Material> make_material(const fs::path& package, const json& settings, const json& surface) {
+gpu::TextureData target_weights(const Primitive& primitive, const json& names) {
+    Image picture(int(std::max<size_t>(primitive.targets.size(), 1)), 1, 4, PixelFormat::f16);
+    int count = 0;
+    for (size_t i = 0; i < primitive.targets.size(); ++i) {
+        const auto found = std::ranges::find(names, json(primitive.targets[i]));
+        if (found == names.end() || primitive.target_weights[i] == 0) continue;
+        picture.set(count, 0, 0, float(found - names.begin()));
+        picture.set(count++, 0, 1, float(primitive.target_weights[i]));
+    }
+    return {.name = "target weights",
+            .format = ImageFormat::rgba16f,
+            .width = picture.width,
+            .height = 1,
+            .bytes = std::move(picture.bytes)};
+}
+
+Result<Material> make_material(const fs::path& package, const json& settings, const json& item,
+                               const json& surface) {
     DERMIS_TRY_ASSIGN(const std::string shader, read_text_file(package / "Head/SkinHead.shader"));
     DERMIS_TRY_ASSIGN(const std::string script, read_text_file(package / "Head/SkinHead.cs"));
     Material material;
@@ -122,7 +147,7 @@ Result<Material> make_material(const fs::path& package, const json& settings, co
             material.pictures[name] = package / "Runtime/SkinTable.exr";
             continue;
         }
-        const json value = evaluated(expression, settings, surface);
+        const json value = evaluated(expression, settings, item, surface);
         if (value.is_null()) continue;
         if (function.starts_with("Bind"))
             material.pictures[name] = package / "Head" / std::string(value);

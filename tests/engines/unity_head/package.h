@@ -23,6 +23,8 @@ struct Primitive {
     std::map<std::string, int> components;
     std::vector<uint32_t> indices;
     std::string material;
+    std::vector<std::string> targets;    ///< names of its blend shapes
+    std::vector<double> target_weights;  ///< one each, beyond that in which the file opens
 };
 
 [[nodiscard]] Result<std::vector<Primitive>> import_glb(const std::filesystem::path& path,
@@ -31,7 +33,7 @@ struct Primitive {
 /// A picture with the bottom row first, as Unity has it, by the .meta beside it: encoding and mip levels.
 [[nodiscard]] Result<gpu::TextureData> import_picture(const std::filesystem::path& path);
 
-/// A material: what the shader's properties and SkinHead.cs say.
+/// A material: what the shader's properties and SkinHead.cs say. `item`: its object in scene.json.
 struct Material {
     std::map<std::string, std::vector<float>> values;       ///< one number, or a linear colour
     std::map<std::string, std::filesystem::path> pictures;  ///< by property
@@ -39,6 +41,11 @@ struct Material {
 };
 
 [[nodiscard]] Result<Material> make_material(const std::filesystem::path& package,
-                                             const nlohmann::json& settings, const nlohmann::json& surface);
+                                             const nlohmann::json& settings, const nlohmann::json& item,
+                                             const nlohmann::json& surface);
+
+/// The picture that SkinHead.cs makes of the weights of a primitive's blend shapes, by their names in
+/// scene.json: as half floats a target's number and its weight.
+[[nodiscard]] gpu::TextureData target_weights(const Primitive& primitive, const nlohmann::json& names);
 
 }  // namespace dermis::unity_head

@@ -15,6 +15,7 @@ SamplerState trilinear_clamp, linear_clamp;
 #define SAMPLER(name)
 #define SAMPLE_TEXTURE2D(t, s, uv) t.Sample(trilinear_clamp, uv)
 #define SAMPLE_TEXTURE2D_LOD(t, s, uv, lod) t.SampleLevel(trilinear_clamp, uv, lod)
+#define LOAD_TEXTURE2D(t, place) t.Load(int3(place, 0))
 #define SAMPLE_TEXTURE2D_SHADOW(t, s, place) t.SampleCmpLevelZero(s, (place).xy, (place).z)
 #define UNITY_VERTEX_INPUT_INSTANCE_ID
 #define UNITY_VERTEX_OUTPUT_STEREO
