@@ -27,8 +27,8 @@ namespace Dermis
         [Serializable] sealed class Follower
         {
             public SkinnedMeshRenderer renderer;
-            public int[] targets;    // number of each in the picture; below 0: it changes nothing
-            public float[] opened;   // their weights as the head opens
+            public int[] targets;   // number of each in the picture; below 0: it changes nothing
+            public float[] opened;  // their weights as the head opens
             [NonSerialized] public Texture2D weights;
         }
 
@@ -93,7 +93,8 @@ namespace Dermis
 
         static void Follow(Follower one)
         {
-            if (one.weights == null) one.weights = new Texture2D(one.targets.Length, 1, TextureFormat.RGBAHalf, false, true);
+            if (one.weights == null)
+                one.weights = new Texture2D(one.targets.Length, 1, TextureFormat.RGBAHalf, false, true) { hideFlags = HideFlags.HideAndDontSave };
             var changed = new Color[one.targets.Length];
             int count = 0;
             for (int i = 0; i < one.targets.Length; ++i)
@@ -182,7 +183,8 @@ namespace Dermis
                     if (one.@class == "translucent") renderer.shadowCastingMode = ShadowCastingMode.Off;
                 }
                 renderer.sharedMaterials = materials;
-                if (renderer is SkinnedMeshRenderer skinned && !string.IsNullOrEmpty(item.curvature_of_targets?.file))
+                bool hasChanges = !string.IsNullOrEmpty(item.curvature_of_targets?.file);
+                if (hasChanges && renderer is SkinnedMeshRenderer skinned && skinned.sharedMesh.blendShapeCount > 0)
                     followers.Add(FollowerOf(skinned, item.curvature_of_targets.targets));
             }
         }
