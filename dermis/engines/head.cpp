@@ -262,8 +262,7 @@ Result<json> head_object_json(const HeadInput& input, size_t index, Head& head, 
     DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, glb_bytes(mesh, {}, {}, in_mesh, rig ? &*rig : nullptr));
     const std::string path = fmt::format("object_{}.glb", index);
     head.files.push_back({path, std::move(bytes)});
-    json made = {
-        {"file", path}, {"name", object.name}, {"box_mm", box_json(mesh)}, {"materials", materials}};
+    json made = {{"file", path}, {"name", object.name}, {"box_mm", box_json(mesh)}, {"materials", materials}};
     if (!rig) return made;
     DERMIS_TRY_ASSIGN(json changes, add_target_curvatures(input, index, head));
     if (!changes.is_null()) made["curvature_of_targets"] = std::move(changes);

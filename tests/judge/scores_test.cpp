@@ -126,10 +126,10 @@ TEST(Scores, the_table_has_the_stated_columns_and_quotes_settings) {
         "walk_captured_error,walk_effect_rms,walk_reference_noise,captured,captured_r,captured_g,captured_b,"
         "captured_error,effect_rms,"
         "reference_noise,rmse,rel_mse,psnr_db,ssim,delta_e_2000,flip,terminator_rmse,penumbra_rmse,time_ms,"
-        "bytes,time_ratio,reference_rmse,model_ratio\n"
+        "bytes,time_ratio,reference_rmse,model_ratio,walk_motion,walk_motion_error,motion,motion_error\n"
         "\"head, "
         "scanned\",wrap,\"wrap=0.4,specular=ggx\",,,,,,,,0.25,0,,0,0.01,0.5,0.125,0,0,inf,0,0,0,0.125,"
-        ",0,7,0,0,\n");
+        ",0,7,0,0,,,,,\n");
 }
 
 TEST(Scores, a_table_of_an_earlier_version_is_read) {
