@@ -98,12 +98,13 @@ constexpr const char* kText =
     "mm wide. noise: "
     "the reference is not\n"
     "fine enough, or has not judged these settings. **Measured**: a frame over lambert's in one run, %s,\n"
-    "%d x %d (unit scenes 96 x 96). **Modelled**: the same for a %s at %d x %d, a model\n"
+    "%d x %d (unit scenes and clip 96 x 96). **Modelled**: the same for a %s at %d x %d, a model\n"
     "([assumptions](performance.md)); empty where Mesa's RADV was not installed. Memory: tables and images "
     "of the technique\n"
-    "alone. scoreboard.csv also has RMSE, FLIP and ΔE 2000. Of a clip: means of "
-    "its frames, and **its motion**, how much of the change\n"
-    "of the effect from frame to frame a technique has ([another face](figures.md#motion)).\n\n"
+    "alone. scoreboard.csv also has RMSE, FLIP and ΔE 2000. A clip has the "
+    "means of its frames; **its motion**: the captured\n"
+    "share of the change of the effect from frame to frame ([the same of another "
+    "face](figures.md#motion)).\n\n"
     "`tools/scoreboard` makes this page, [scoreboard.csv](scoreboard.csv) and the plot again.\n\n"
     "![Captured share over cost](scoreboard.svg)\n\n";
 
@@ -215,15 +216,20 @@ Result<void> look_at(Scene& scene, std::string_view view) {
     return {};
 }
 
+// Empty: the scene does not move.
+std::string clip_of(const std::string& name) {
+    const size_t space = name.find(' ');
+    return space == std::string::npos ? "" : name.substr(space + 1);
+}
+
 Result<SubjectCase> scene_of(Job& job) {
     if (!job.made) {
-        const size_t slash = job.name.find('/'), space = job.name.find(' ');
-        const std::string head = job.name.substr(0, std::min(slash, space));
+        const size_t slash = job.name.find('/');
+        const std::string head = job.name.substr(0, job.name.find_first_of("/ ")), clip = clip_of(job.name);
         const size_t at = head.find('@');
         SceneOptions options{.subjects = built_in_catalog().subjects};
-        if (space != std::string::npos)
-            options.words = {{"animation.clip", job.name.substr(space + 1)},
-                             {"animation.time_s", to_text(kClipStart_s)}};
+        if (!clip.empty())
+            options.words = {{"animation.clip", clip}, {"animation.time_s", to_text(kClipStart_s)}};
         Result<Scene> scene = load_scene(head.substr(0, at), options);
         if (!scene) return scene.error();
         if (at != std::string::npos) DERMIS_TRY(look_at(*scene, std::string_view(head).substr(at + 1)));
@@ -306,7 +312,7 @@ void print_what_is_left(size_t left, size_t all, double made_s, size_t made) {
 }
 
 ComparisonSettings settings_of(const Job& job, int size) {
-    const bool moves = job.name.find(' ') != std::string::npos;
+    const bool moves = !clip_of(job.name).empty();
     const int side = job.made ? std::min(size, kCaseSize) : moves ? std::min(size, kClipSize) : size;
     ComparisonSettings settings = comparison_settings(side, side);
     settings.noise = moves ? kClipNoise : noise_of_size(side, side);

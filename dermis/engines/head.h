@@ -5,20 +5,21 @@
 //     make_package("three", {.profile = ..., .head = head->files});
 //
 // scene.json   camera, lights, environment, materials, and which map is what
-// object_N.glb one for each mesh, in metres, with the material's maps embedded. Vertices carry, as further
-// texture
-//              coordinates: TEXCOORD_1 the skin's atlas; TEXCOORD_2 the mean curvature and half the
-//              difference between those along the two tangents; TEXCOORD_3 the mixed one, all in 1/mm in the
-//              frame of vertex_tangent() (shaders/include/skin/curvature.glsl), and the occlusion of red;
-//              TEXCOORD_4 that of green and blue, scattered by the profile; TEXCOORD_5 the occlusion as it
-//              is, and the number of the vertex. A mesh that moves has its nodes, skins, morph targets and
-//              clips, in the scene's pose, and in TEXCOORD_6 and TEXCOORD_7 the quaternion x y z w of the
-//              frame (tangent, normal x tangent, normal) in which all this was baked: shaders turn it to that
-//              of the pose
-// N_curvature.png  of an object whose morph targets change the mean curvature: target_curvature.h.
-//              curvature_of_targets of the object has the targets by name in their order, the rows of each,
-//              and the change in 1/mm of kCurvatureSteps steps, which the sum over the targets does not
-//              exceed
+// object_N.glb one for each mesh, in metres, with the material's maps embedded. Vertices have more texture
+//              coordinates:
+//                TEXCOORD_1  the skin's atlas
+//                TEXCOORD_2  the mean curvature, half the difference between those along the two tangents
+//                TEXCOORD_3  the mixed curvature, the occlusion of red scattered by the profile
+//                TEXCOORD_4  that of green and blue
+//                TEXCOORD_5  the occlusion as it is, the number of the vertex
+//              Curvatures are in 1/mm in the frame of vertex_tangent() (shaders/include/skin/curvature.glsl).
+//              A mesh that moves has its nodes, skins, morph targets and clips, in the scene's pose, and
+//                TEXCOORD_6, TEXCOORD_7  the quaternion x y z w of the frame (tangent, normal x tangent,
+//                                        normal) in which the scene's pose was baked
+//              by which shaders turn what was baked to the frame of the pose that they draw
+// N_curvature.png  of object N, where morph targets change the mean curvature: target_curvature.h.
+//              curvature_of_targets of the object in scene.json names the targets in their order, and has the
+//              rows of each and the largest change in 1/mm, which is kCurvatureSteps steps
 // normals_red.png, normals_green.png, normals_spread.png
 //              baked normals (shaders/include/skin/baked_normals.glsl) over the atlas
 // thickness.png over the atlas: kThicknessMaxMm for a value of 1

@@ -160,7 +160,7 @@ Result<ScatteringMedium> medium_of_scene(const Scene& scene) {
 }
 
 Error stopped_without_a_picture() {
-    return Error{"stopped before every pixel had a sample: there is no picture yet"};
+    return Error{"stopped while some pixels had no sample: there is no picture yet"};
 }
 
 Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSettings& settings,

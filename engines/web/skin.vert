@@ -8,7 +8,7 @@ layout(location = 5) in vec4 occlusion_in;  // three blurs
 layout(location = 6) in vec3 posed_mm_in;   // these of an object that moves
 layout(location = 7) in vec3 posed_normal_in;
 layout(location = 8) in vec3 posed_tangent_in;
-layout(location = 9) in float posed_change_in;  // of the mean curvature, in 1/mm
+layout(location = 9) in float curvature_change_per_mm_in;  // of the mean curvature, by morph targets
 
 uniform mat4 view_projection;
 uniform vec3 box_low_mm, box_size_mm;
@@ -30,7 +30,7 @@ void main() {
     tangent = vec4(t, normal_in.w < 0.0 ? -1.0 : 1.0);
     uv = uv_low + uv_in * uv_size;
     vec3 k = curvature_in.xyz;
-    if (moves) k.xy += posed_change_in;
+    if (moves) k.xy += curvature_change_per_mm_in;
     curvature_diagonal_per_mm = k.x * t * t + k.y * b * b + 2.0 * k.z * t * b;
     curvature_mixed_per_mm = k.x * t.yxx * t.zzy + k.y * b.yxx * b.zzy + k.z * (t.yxx * b.zzy + b.yxx * t.zzy);
     occlusion = vec4(position_in.w, occlusion_in.xyz);

@@ -70,7 +70,7 @@ Result<void> add_streams(const Glb& glb, const json& primitive, std::vector<std:
         const json& attributes = primitive["attributes"];
         const bool has_it = attributes.contains(semantic);
         if (!has_it && count != 4) return Error{"the mesh has no " + std::string(semantic)};
-        // Without tangents there is no map that reads them.
+        // A mesh without tangents has no normal map in tangent space, so zeros do.
         const std::vector<float> given =
             has_it ? floats_of(glb, attributes[semantic])
                    : std::vector<float>(floats_of(glb, attributes["NORMAL"]).size() / 3 * 4);

@@ -16,8 +16,8 @@ struct Graph {
     std::map<std::string, nlohmann::json> values;  ///< a number or four of each other parameter
 };
 
-/// Of the material with this path; `editor` is what unreal.py prints. Errors: no Custom node, an input
-/// without a link, a node that is not modelled.
+/// The graph of the material at this path of the content browser. `editor`: the JSON that unreal.py prints.
+/// Errors: a material without a Custom node, an input without a link, a node that is not modelled.
 [[nodiscard]] Result<Graph> material_graph(const nlohmann::json& editor, const std::string& path);
 
 /// The text of the vertex shader.
