@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dermis/base/progress.h"
 #include "dermis/mesh/curvature.h"
 #include "dermis/scene/pose_scene.h"
 
@@ -24,6 +25,7 @@ Result<std::vector<TargetCurvature>> target_curvatures(const SceneObject& object
     Scene alone;
     alone.objects = {object};
     DERMIS_TRY_ASSIGN(const ScenePoser poser, ScenePoser::create(alone));
+    Progress progress("curvature of morph targets", names.size());
     for (const std::string& name : names) {
         const auto found = object.target_weights.find(name);
         const float before = found == object.target_weights.end() ? 0 : found->second,
@@ -38,6 +40,7 @@ Result<std::vector<TargetCurvature>> target_curvatures(const SceneObject& object
                 steps_of((curvatures[v] - mean_curvature(in_pose[v])) / (after - before)));
         if (std::ranges::any_of(target.changes, [](int8_t change) { return change != 0; }))
             all.push_back(std::move(target));
+        progress.advance(1);
     }
     return all;
 }
