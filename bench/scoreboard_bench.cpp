@@ -82,7 +82,9 @@ constexpr int kCaseSize = 96;
 // Of a clip. The change between two frames is less than the effect, so its references are finer.
 constexpr int kClipSize = 96;
 constexpr double kClipNoise = .2;
-// A larger picture reaches noise_of_size() with fewer walks a sample than a comparison takes.
+// Of noise_of_size(), which leaves shares above .7 without a known digit.
+constexpr double kNoiseShare = .5;
+// A larger picture reaches it with fewer walks a sample than a comparison takes.
 constexpr int kCoarseSide = 128, kFewWalks = 6;
 // What costs are modelled for: the frame of docs/performance.md.
 constexpr const char* kModelChip = "navi21";
@@ -315,7 +317,7 @@ ComparisonSettings settings_of(const Job& job, int size) {
     const bool moves = !clip_of(job.name).empty();
     const int side = job.made ? std::min(size, kCaseSize) : moves ? std::min(size, kClipSize) : size;
     ComparisonSettings settings = comparison_settings(side, side);
-    settings.noise = moves ? kClipNoise : noise_of_size(side, side);
+    settings.noise = moves ? kClipNoise : kNoiseShare * noise_of_size(side, side);
     if (!job.made && side > kCoarseSide) settings.walks = kFewWalks;
     settings.frames = 2;
     settings.reference.integrator = Integrator::walk;

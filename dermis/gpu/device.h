@@ -116,6 +116,7 @@ class Array {
                                               std::span<const std::byte> bytes);
     /// For what changes every frame: stays on the CPU, and each frame that reads it takes it along.
     [[nodiscard]] static Array streamed(std::span<const std::byte> bytes);
+    [[nodiscard]] uint64_t bytes() const;
     ~Array();
     Array(Array&&) noexcept;
     Array& operator=(Array&&) noexcept;
@@ -150,6 +151,8 @@ class Geometry {
     /// A stream as the device has it. Waits for what was submitted. Error: no such stream on the device.
     [[nodiscard]] Result<std::vector<float>> read(Device& device, std::string_view stream) const;
     [[nodiscard]] uint32_t vertex_count() const;
+    /// 0 where it has no such stream.
+    [[nodiscard]] uint64_t stream_bytes(std::string_view stream) const;
     ~Geometry();
     Geometry(Geometry&&) noexcept;
     Geometry& operator=(Geometry&&) noexcept;

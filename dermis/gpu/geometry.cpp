@@ -141,6 +141,10 @@ Array Array::streamed(std::span<const std::byte> bytes) {
     return Array(std::make_unique<State>(State{{.bytes = {bytes.begin(), bytes.end()}}}));
 }
 
+uint64_t Array::bytes() const {
+    return state_->data.buffer.handle ? state_->data.buffer.size : state_->data.bytes.size();
+}
+
 Array::Array(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Array::~Array() = default;
 Array::Array(Array&&) noexcept = default;
@@ -148,6 +152,12 @@ Array& Array::operator=(Array&&) noexcept = default;
 
 uint32_t Geometry::vertex_count() const {
     return state_->vertex_count;
+}
+
+uint64_t Geometry::stream_bytes(std::string_view stream) const {
+    const auto found = state_->streams.find(stream);
+    if (found == state_->streams.end()) return 0;
+    return uint64_t(state_->vertex_count) * uint64_t(found->second.components) * sizeof(float);
 }
 
 Geometry::Geometry(std::unique_ptr<State> state) : state_(std::move(state)) {}

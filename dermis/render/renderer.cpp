@@ -11,13 +11,13 @@
 #include "dermis/rays/carried_bakes.h"
 #include "dermis/rays/curvature_gain.h"
 #include "dermis/rays/slab_gain.h"
-#include "dermis/rays/vertex_gain.h"
 #include "dermis/render/atlas_check.h"
 #include "dermis/render/frame_values.h"
 #include "dermis/render/legend.h"
 #include "dermis/render/material_maps.h"
 #include "dermis/render/profile_passes.h"
 #include "dermis/render/seam_textures.h"
+#include "dermis/render/walked_scene.h"
 #include "dermis/scene/skin_profiles.h"
 #include "dermis/scene/wrinkles.h"
 #include "dermis/technique/gain.h"
@@ -80,20 +80,6 @@ void number_profiles(const Scene& scene, std::vector<gpu::Draw>& draws) {
     for (const SceneObject& object : scene.objects)
         for (const Submesh& submesh : object.mesh.submeshes)
             (draw++)->profile = int(profile_index(scene, profiles, object, submesh.material));
-}
-
-// Copies the gains of the vertices of one profile.
-void take_gains(const Scene& scene, std::span<const gpu::Draw> draws, int profile,
-                std::span<const std::vector<Vec3>> from, std::vector<std::vector<Vec3>>& gains) {
-    auto draw = draws.begin();
-    for (size_t o = 0; o < scene.objects.size(); ++o) {
-        const Mesh& mesh = scene.objects[o].mesh;
-        for (const Submesh& submesh : mesh.submeshes) {
-            if ((draw++)->profile != profile) continue;
-            for (uint32_t i = submesh.first_index; i < submesh.first_index + submesh.index_count; ++i)
-                gains[o][mesh.indices[i]] = from[o][mesh.indices[i]];
-        }
-    }
 }
 
 // Normals baked for the pose; with rest_bakes.normals baked for the rest pose and turned with the surface.
@@ -175,6 +161,7 @@ Result<void> Renderer::objects_replaced() {
 void Renderer::forget_shape() {
     drop_history();
     for (ProfileState& state : profiles_) state.diffused_normals_key.clear();
+    linked_light_key_.clear();
     seams_.reset();
     atlas_fault_.reset();
 }
@@ -325,7 +312,7 @@ Result<void> Renderer::prepare_diffused_normals(ProfileState& state) {
 }
 
 // Walks, which are cached, for the first frame with a gain.
-Result<void> Renderer::prepare_gains() {
+Result<void> Renderer::prepare_gains(const SharedPassSettings& shared) {
     const auto asks_for = [&](int32_t gain) {
         return std::ranges::any_of(list_.passes, [&](const Pass& pass) {
             return std::ranges::find(pass.constants, std::pair(std::string(kGainConstant), gain)) !=
@@ -334,6 +321,8 @@ Result<void> Renderer::prepare_gains() {
     };
     const bool by_curvature = asks_for(kGainCurvature), by_map = asks_for(kGainMap);
     if (by_map) DERMIS_TRY(prepare_walked_gains());
+    draws_linked_light_ = asks_for(kGainLinks);
+    if (draws_linked_light_) DERMIS_TRY(prepare_linked_light(shared));
     if (!by_curvature && !by_map) return {};
     for (ProfileState& state : profiles_) {
         if (state.has_gain_form) continue;
@@ -346,28 +335,33 @@ Result<void> Renderer::prepare_gains() {
 
 // Each vertex has the gain of its material's profile.
 Result<void> Renderer::prepare_walked_gains() {
-    Hasher hasher;
-    std::vector<gpu::Draw> draws = uploaded_->draws();
-    number_profiles(*scene_, draws);
-    for (const ProfileState& state : profiles_) hasher.add(state.skin.profile.name);
-    for (const gpu::Draw& draw : draws) hasher.add(draw.profile);
-    for (const SceneObject& object : scene_->objects) hasher.add(object.classes);
-    std::string key = hasher.hex();
+    std::string key = walks_key(*scene_);
     if (key == uploaded_->gains_key) return {};
-    const std::vector<SceneObject>& objects =
-        scene_->rest_bakes.gain ? scene_->rest_objects : scene_->objects;
-    std::vector<std::vector<Vec3>> gains;
-    for (size_t p = 0; p < profiles_.size(); ++p) {
-        DERMIS_TRY_ASSIGN(VertexGains walked,
-                          walk_vertex_gains(objects, walk_medium_of(profiles_[p].skin.profile)));
-        if (p == 0)
-            gains = std::move(walked.gains);
-        else
-            take_gains(*scene_, draws, int(p), walked.gains, gains);
-    }
+    DERMIS_TRY_ASSIGN(const std::vector<std::vector<Vec3>> gains,
+                      walk_scene_gains(*scene_, walked_profiles()));
     DERMIS_TRY(uploaded_->replace_gains(*device_, gains));
     uploaded_->gains_key = std::move(key);
     return {};
+}
+
+// Its passes fill the stream of the gains.
+Result<void> Renderer::prepare_linked_light(const SharedPassSettings& shared) {
+    std::string key = "links " + walks_key(*scene_);
+    if (key != linked_light_key_) {
+        DERMIS_TRY_ASSIGN(const VertexLinks links, walk_scene_links(*scene_, walked_profiles()));
+        DERMIS_TRY_ASSIGN(linked_light_, LinkedLight::upload(*device_, *scene_, links));
+        linked_light_key_ = std::move(key);
+    }
+    uploaded_->gains_key = linked_light_key_;
+    linked_light_->add_passes(list_, shared);
+    return {};
+}
+
+std::vector<WalkedProfile> Renderer::walked_profiles() const {
+    std::vector<WalkedProfile> profiles;
+    for (const ProfileState& state : profiles_)
+        profiles.push_back({walk_medium_of(state.skin.profile), state.skin.gaussians});
+    return profiles;
 }
 
 gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSettings& settings) const {
@@ -401,6 +395,7 @@ gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSetti
     inputs.arrays["Lights"] = light_values(*scene_);
     inputs.draws = uploaded_->draws();
     number_profiles(*scene_, inputs.draws);
+    if (draws_linked_light_) linked_light_->add_inputs(uploaded_->geometries(), inputs);
     return inputs;
 }
 
@@ -461,7 +456,7 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
     check_maps();
     DERMIS_TRY(prepare_seams());
     for (ProfileState& state : profiles_) DERMIS_TRY(prepare_diffused_normals(state));
-    DERMIS_TRY(prepare_gains());
+    DERMIS_TRY(prepare_gains(shared));
     history_key_ = key;
     history_distance_mm_ = frame.camera_distance_mm;
     return {};

@@ -7,9 +7,11 @@
 #include "dermis/gpu/executor.h"
 #include "dermis/optics/gain_form.h"
 #include "dermis/render/deformer.h"
+#include "dermis/render/linked_light.h"
 #include "dermis/render/scene_upload.h"
 #include "dermis/render/seam_textures.h"
 #include "dermis/render/shared_passes.h"
+#include "dermis/render/walked_scene.h"
 #include "dermis/scene/scene.h"
 #include "dermis/technique/technique.h"
 
@@ -118,8 +120,10 @@ class Renderer {
     void check_maps();
     Result<void> prepare_seams();
     Result<void> prepare_diffused_normals(ProfileState& state);
-    Result<void> prepare_gains();
+    Result<void> prepare_gains(const SharedPassSettings& shared);
     Result<void> prepare_walked_gains();
+    Result<void> prepare_linked_light(const SharedPassSettings& shared);
+    [[nodiscard]] std::vector<WalkedProfile> walked_profiles() const;
 
     gpu::Device* device_;
     gpu::ShaderSource shaders_;
@@ -140,6 +144,9 @@ class Renderer {
     std::optional<std::string> atlas_fault_;  ///< FrameContext::atlas_fault; absent: not asked yet
     bool skin_outside_atlas_ = true;
     std::optional<SeamTextures> seams_;
+    std::optional<LinkedLight> linked_light_;
+    std::string linked_light_key_;     ///< empty: of another shape
+    bool draws_linked_light_ = false;  ///< list_ has its passes
 };
 
 }  // namespace dermis::inline render

@@ -84,11 +84,23 @@ void add_draws(const Pass& pass, const gpu::FrameInputs& inputs, PassWork& work)
     }
 }
 
+void add_buffers(const Pass& pass, const gpu::FrameInputs& inputs, PassWork& work) {
+    for (const ImageRead& buffer : pass.buffers) {
+        const gpu::BufferInput& input = inputs.buffers.at(buffer.image);
+        work.buffer_bytes += input.array ? input.array->bytes() : input.geometry->stream_bytes(input.stream);
+    }
+}
+
 PassWork work_of(const PassList& list, const Pass& pass, const gpu::PassTiming& drawn,
                  const gpu::FrameInputs& inputs, int width, int height) {
     PassWork work = {.pass = pass.name};
     for (const auto& [name, texture] : inputs.textures)
         if (texture) work.textures[name] = {texture->bytes(), texture->bytes_per_texel()};
+    if (pass.threads > 0) {
+        work.threads = pass.threads;
+        add_buffers(pass, inputs, work);
+        return work;
+    }
     const uint64_t texels = target_texels(list, pass, width, height);
     if (pass.kind == PassKind::compute) work.threads = texels;
     if (!rasterises(pass)) return work;
@@ -206,7 +218,8 @@ uint64_t bytes_moved(const FrameWork& work, size_t index, const gpu::PassStatist
     uint64_t bytes = attachment_bytes(work, pass, counts.fragments, counts.threads);
     bytes += read_bytes(work, pass, counts.fragments, counts.threads, images);
     bytes += texture_bytes(pass, counts, statistics, images);
-    return bytes + counts.vertices * statistics.vertex_bytes + counts.indices * sizeof(uint32_t);
+    return bytes + counts.buffer_bytes + counts.vertices * statistics.vertex_bytes +
+           counts.indices * sizeof(uint32_t);
 }
 
 FrameCost model_frame(const FrameWork& work, const std::vector<gpu::PassStatistics>& statistics,

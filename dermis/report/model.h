@@ -45,10 +45,11 @@ struct TextureBytes {
 /// How much a pass has to do: counted in a frame that any Vulkan device drew, for a frame of another size.
 struct PassWork {
     std::string pass;
-    uint64_t vertices = 0;   ///< each vertex of a draw once; 3 for a full-screen triangle
-    uint64_t indices = 0;    ///< 0 for a full-screen triangle
-    uint64_t fragments = 0;  ///< that passed the depth test
-    uint64_t threads = 0;    ///< of a compute pass
+    uint64_t vertices = 0;      ///< each vertex of a draw once; 3 for a full-screen triangle
+    uint64_t indices = 0;       ///< 0 for a full-screen triangle
+    uint64_t fragments = 0;     ///< that passed the depth test
+    uint64_t threads = 0;       ///< of a compute pass
+    uint64_t buffer_bytes = 0;  ///< of all buffers that it binds, each once
     /// Bytes that the frame can bind, by name; the sum for draws with different maps.
     std::map<std::string, TextureBytes> textures;
 };

@@ -118,7 +118,7 @@ struct RestBakes {
     bool normals = false;    ///< baked normals, which turn with the tangent frame of their texel
     bool curvature = false;  ///< curvature tensors of the vertices, which turn with their tangent frames
     bool stencils = false;   ///< those tensors, changed by stencils of the rest pose (CurvatureAtRest)
-    bool gain = false;       ///< walked gains of the vertices, for gain=map
+    bool gain = false;       ///< walks of the vertices, for gain=map and gain=links
     bool occlusion = false;  ///< ambient occlusion of the vertices
 
     [[nodiscard]] bool any() const { return normals || curvature || stencils || gain || occlusion; }

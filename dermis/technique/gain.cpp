@@ -1,14 +1,23 @@
 #include "dermis/technique/gain.h"
 
+#include <algorithm>
+
+#include "dermis/technique/transmission.h"
+
 namespace dermis::inline technique {
 
 const std::vector<std::string>& gain_names() {
-    static const std::vector<std::string> kNames = {"none", "curvature", "map"};
+    static const std::vector<std::string> kNames = {"none", "curvature", "map", "links"};
     return kNames;
 }
 
 void use_gain(Pass& pass, Gain gain) {
     pass.constants.emplace_back(kGainConstant, int32_t(gain));
+    // Links bring the light through thin parts, too.
+    if (gain != Gain::links) return;
+    const auto transmission =
+        std::ranges::find(pass.constants, kTransmissionConstant, &std::pair<std::string, int32_t>::first);
+    if (transmission != pass.constants.end()) transmission->second = kTransmissionNone;
 }
 
 ParameterValues without_gain(ParameterValues values) {

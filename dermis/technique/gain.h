@@ -11,16 +11,24 @@
 
 namespace dermis::inline technique {
 
-enum class Gain : int32_t { none = kGainNone, curvature = kGainCurvature, map = kGainMap };
+enum class Gain : int32_t {
+    none = kGainNone,
+    curvature = kGainCurvature,
+    map = kGainMap,
+    links = kGainLinks
+};
 
 [[nodiscard]] const std::vector<std::string>& gain_names();
 inline constexpr const char* kGainHelp =
-    "light that skin returns beyond the profile, by its form: none, curvature in closed form, or map, walked "
-    "at each "
-    "vertex";
+    "light that skin returns beyond the profile: none, by curvature in closed form, map, walked at each "
+    "vertex "
+    "under even light, or links, walked from vertex to vertex, thin parts included (no transmission is "
+    "added)";
 
-/// The specialisation constant; the renderer supplies the form to frames with a pass that has it.
+/// The specialisation constant; the renderer supplies the form, and the light of links, to frames with a pass
+/// that has it.
 inline constexpr const char* kGainConstant = "gain";
+/// After read_transmission(), which links replace.
 void use_gain(Pass& pass, Gain gain);
 
 /// The values with gain=none, where they have it: the technique's part that the profile describes.

@@ -24,7 +24,7 @@ void read_transmission_without_table(Pass& pass, Transmission transmission, cons
         pass.reads.emplace_back(
             shadow_image("lit_skin", i),
             shadow_image(lit_skin ? "lit_skin" : "shadow_map", i < frame.shadow_map_count ? i : 0));
-    pass.constants.emplace_back("transmission", int32_t(transmission));
+    pass.constants.emplace_back(kTransmissionConstant, int32_t(transmission));
 }
 
 // Something must be bound even where the shader, by its constants, never looks.

@@ -13,6 +13,8 @@ namespace dermis::inline technique {
 enum class Transmission : int32_t { none = kTransmissionNone, shadow_map = kTransmissionShadowMap };
 
 [[nodiscard]] const std::vector<std::string>& transmission_names();
+/// The specialisation constant.
+inline constexpr const char* kTransmissionConstant = "transmission";
 inline constexpr const char* kTransmissionHelp =
     "transmission through ears and other thin parts, gathered from the shadow maps";
 

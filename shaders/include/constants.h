@@ -40,7 +40,7 @@ const int kTransmissionNone = 0, kTransmissionShadowMap = 1;
 const int kTransmissionTexels = 1025;  // of the table skin_transmission
 
 // Specialisation constant gain.
-const int kGainNone = 0, kGainCurvature = 1, kGainMap = 2;
+const int kGainNone = 0, kGainCurvature = 1, kGainMap = 2, kGainLinks = 3;
 
 // Specialisation constant view. Own: the technique's own debug view.
 const int kViewFinal = 0, kViewDiffuse = 1, kViewSpecular = 2, kViewOwn = 3;

@@ -160,6 +160,7 @@ void main() {
         specular_radiance += light.irradiance_linear * arriving.visibility *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }
+    exitance = with_links(exitance);
 #ifdef DERMIS_TRANSMISSION
     if (has_scatter != 0) {
         unscattered += environment_irradiance(s.n_world) * s.occlusion;

@@ -115,6 +115,7 @@ void main() {
             specular_reflection(s.n_world, s.to_eye_world, arriving.light.to_light_world, s.roughness, s.f0);
     }
     specular_radiance += reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
+    exitance = with_links(exitance);
     if (has_scatter != 0) {
         float of_key;
         exitance = mix(unblurred_exitance(s, of_key), exitance, scatter_weight(s));

@@ -27,7 +27,7 @@ void main() {
     vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion) +
                              light.specular + light.key_specular * key_specular_shadow(s, light.key_passing, exitance);
     vec3 gain_of_place = gain_at(mean_curvature_per_mm(s));
-    exitance = gain_of_place * exitance + transmitted_gain(gain_of_place) * light.transmitted;
+    exitance = with_links(gain_of_place * exitance + transmitted_gain(gain_of_place) * light.transmitted);
     if (has_scatter != 0) exitance = mix(unblurred_exitance(s, light.direct).of_normal, exitance, scatter_weight(s));
     vec3 diffuse_radiance = diffuse_exit(s) * s.albedo_linear * exitance / kPi;
     radiance_out = vec4(shown_radiance(diffuse_radiance, specular_radiance, exitance / kPi), 1.0);

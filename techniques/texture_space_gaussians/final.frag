@@ -13,7 +13,7 @@ uniform texture2D light_map_widest;  // blurred by the widest Gaussian
 
 // The light that the gain adds or takes comes from farther away than that of the profile (gain_spread.h).
 vec3 with_gain(vec3 exitance, vec3 gain_of_place, Surface s) {
-    if (gain == kGainNone) return exitance;
+    if (gain == kGainNone || gain == kGainLinks) return exitance;
     vec3 widest;
     if (!read_light_map(light_map_widest, s, kTexelsPremultiplied, widest)) widest = exitance;
     return max(exitance + (gain_of_place - 1.0) * mix(exitance, widest, widest_share_of_gain), vec3(0.0));
@@ -29,6 +29,7 @@ void main() {
     vec3 gain_of_place = gain_at(mean_curvature_per_mm(s));
     exitance = with_gain(exitance, gain_of_place, s) +
                transmitted_gain(gain_of_place) * pow(s.albedo_linear, vec3(pre_scatter)) * light.transmitted;
+    if (gain == kGainLinks) exitance = with_links(exitance / pow(s.albedo_linear, vec3(pre_scatter))) * pow(s.albedo_linear, vec3(pre_scatter));
     if (has_scatter != 0) {
         vec3 unscattered = unblurred_exitance(s, light.direct).of_normal * pow(s.albedo_linear, vec3(pre_scatter));
         exitance = mix(unscattered, exitance, scatter_weight(s));

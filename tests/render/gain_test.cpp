@@ -6,10 +6,12 @@
 
 #include <cmath>
 
+#include "dermis/mesh/primitives.h"
 #include "dermis/optics/conversions.h"
 #include "dermis/optics/presets.h"
 #include "dermis/rays/curvature_gain.h"
 #include "dermis/rays/vertex_gain.h"
+#include "dermis/scene/placement.h"
 #include "render/render_test.h"
 #include "support/built_in.h"
 
@@ -26,6 +28,39 @@ void without_transmission(const Technique& technique, ParameterValues& values) {
 }
 
 using Gains = RenderTest;
+
+Scene ball_lit_from_behind(float radius_mm) {
+    Scene scene;
+    scene.objects.push_back(
+        {.name = "ball", .mesh = make_sphere(radius_mm, 32), .classes = {MaterialClass::skin}});
+    place_in_studio(scene);
+    EXPECT_TRUE(complete_scene(scene));
+    Light light = scene.lights.front();
+    light.to_light_world = {0, 0, -1};
+    light.is_key = true;
+    scene.lights = {light};
+    scene.environment = {.kind = EnvironmentKind::none};
+    scene.skin.profile = "openpbr_skin_3";
+    return scene;
+}
+
+// Of the gain that a picture shows, from the closed form by the curvature.
+double rms_off_the_form(Renderer& renderer, const Image& with, const Image& without, const GainForm& form) {
+    const Result<Image> normal = renderer.read("gbuffer_normal");
+    EXPECT_TRUE(normal) << normal.error().message;
+    const Image per_mm = to_linear_float(*normal);  // in alpha
+    double squares = 0;
+    int count = 0;
+    for (int y = 0; y < with.height; ++y)
+        for (int x = 0; x < with.width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                if (without.at(x, y, c) < 0.01f) continue;
+                const double off = with.at(x, y, c) / without.at(x, y, c) - gain(form, c, per_mm.at(x, y, 3));
+                squares += off * off;
+                ++count;
+            }
+    return std::sqrt(squares / count);
+}
 
 // Even light, because texture_space_gaussians takes the light of the gain from farther away than the
 // profile's.
@@ -76,22 +111,8 @@ TEST_F(Gains, of_the_map_are_those_of_walks_in_every_technique) {
         const Image without = radiance(renderer, technique, values, kDraw);
         ASSERT_TRUE(values.set("gain", "map"));
         const Image with = radiance(renderer, technique, values, kDraw);
-        const Result<Image> normal = renderer.read("gbuffer_normal");
-        ASSERT_TRUE(normal) << normal.error().message;
-        const Image per_mm = to_linear_float(*normal);  // in alpha
-        double squares = 0;
-        int count = 0;
-        for (int y = 0; y < with.height; ++y)
-            for (int x = 0; x < with.width; ++x)
-                for (int c = 0; c < 3; ++c) {
-                    if (without.at(x, y, c) < 0.01f) continue;
-                    const double off =
-                        with.at(x, y, c) / without.at(x, y, c) - gain(form, c, per_mm.at(x, y, 3));
-                    squares += off * off;
-                    ++count;
-                }
         // The form is off walks by a few percent; without the map the gain of spheres is off by tenths.
-        const double rms = std::sqrt(squares / count);
+        const double rms = rms_off_the_form(renderer, with, without, form);
         EXPECT_LT(rms, 0.04) << technique.id;
         EXPECT_GT(rms, 1e-4) << technique.id << ": the form itself is drawn";
     }
@@ -99,6 +120,45 @@ TEST_F(Gains, of_the_map_are_those_of_walks_in_every_technique) {
     for (const std::vector<Vec3>& gains : walked->gains)
         for (const Vec3& value : gains) most = std::max(most, value.x);
     EXPECT_GT(most, 1.2f) << "the spheres are too flat to tell";
+}
+
+TEST_F(Gains, of_links_under_even_light_are_those_of_walks_in_every_technique) {
+    Scene scene = evenly_lit_spheres();
+    scene.objects.resize(2);  // the smallest
+    const GainForm form = walked_gain_form(walk_medium_of(*find_profile(scene.skin.profile)));
+    Renderer renderer = make_renderer(scene);
+    for (const Technique& technique : built_in_catalog().techniques) {
+        ParameterValues values = small_map_values(technique);
+        if (!technique.parameters.find("gain")) continue;
+        ASSERT_TRUE(values.set("gain", "none"));
+        without_transmission(technique, values);
+        const Image without = radiance(renderer, technique, values, kDraw);
+        ASSERT_TRUE(values.set("gain", "links"));
+        // Links replace it.
+        if (technique.parameters.find("transmission")) ASSERT_TRUE(values.set("transmission", "shadow_map"));
+        const Image with = radiance(renderer, technique, values, kDraw);
+        const double rms = rms_off_the_form(renderer, with, without, form);
+        EXPECT_LT(rms, 0.05) << technique.id;
+        EXPECT_GT(rms, 1e-4) << technique.id << ": the form itself is drawn";
+    }
+}
+
+// Behind an edge of light the light comes from where it is lit: no gain of a place can have it.
+TEST_F(Gains, of_links_light_the_dark_side_of_a_small_ball) {
+    const Scene scene = ball_lit_from_behind(2);
+    Renderer renderer = make_renderer(scene);
+    const Technique& technique = built_in_technique("preintegrated");
+    const auto brightness = [&](const char* gain) {
+        ParameterValues values = small_map_values(technique);
+        EXPECT_TRUE(values.set("gain", gain));
+        EXPECT_TRUE(values.set("transmission", "none"));
+        const Image drawn = radiance(renderer, technique, values, kDraw);
+        return drawn.at(kDraw.width / 2, kDraw.height / 2, 0);
+    };
+    const float dark = brightness("map"), linked = brightness("links");
+    EXPECT_LT(dark, 0.01f);
+    EXPECT_GT(linked, 0.03f);
+    EXPECT_EQ(brightness("map"), dark) << "the gains are those of links still";
 }
 
 }  // namespace

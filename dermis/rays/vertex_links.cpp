@@ -1,0 +1,429 @@
+#include "dermis/rays/vertex_links.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dermis/base/cache.h"
+#include "dermis/base/hash.h"
+#include "dermis/base/parallel.h"
+#include "dermis/base/progress.h"
+#include "dermis/base/text.h"
+#include "dermis/mesh/topology.h"
+#include "dermis/rays/flesh_boundary.h"
+#include "dermis/rays/guided_walk.h"
+#include "dermis/rays/random.h"
+#include "dermis/rays/rays_version.h"
+#include "dermis/rays/sampling.h"
+#include "dermis/rays/uv_raster.h"
+#include "dermis/scene/scene_hash.h"
+
+namespace dermis::inline rays {
+namespace {
+
+constexpr int kFlatWalks = 3 << 17;
+constexpr size_t kRowsPerTask = 64;
+constexpr int kSmoothings = 2;
+constexpr float kLeastCosine = 0.1f;  // of a surface to the ray that finds it
+
+// Of one object: its vertices by position, and the visible triangles of skin around each.
+struct LinkedObject {
+    const Mesh* mesh = nullptr;
+    uint32_t first_vertex = 0;  // over all objects
+    Weld weld;
+    std::vector<uint32_t> first_corner, corners;  // of each position: corners (3 triangle + k) around it
+
+    [[nodiscard]] std::span<const uint32_t> around(uint32_t position) const {
+        return std::span(corners).subspan(first_corner[position],
+                                          first_corner[position + 1] - first_corner[position]);
+    }
+};
+
+float area_mm2(const Mesh& mesh, uint32_t triangle) {
+    const auto [a, b, c] = corners_mm(mesh, triangle);
+    return 0.5f * length(cross(b - a, c - a));
+}
+
+struct LinkTask {
+    const RayScene* rays;
+    std::span<const LinkedObject> objects;
+    WalkMedium medium;
+    WalkGuide guide;
+    Vec3 per_flat;  // one over what flat skin returns
+    const GaussianSum* profile;
+    VertexLinkSettings settings;
+};
+
+LinkedObject linked(const SceneObject& object, const Flesh& flesh, uint32_t first_vertex) {
+    const Mesh& mesh = object.mesh;
+    LinkedObject made{.mesh = &mesh,
+                      .first_vertex = first_vertex,
+                      .weld = weld_positions(mesh.positions_mm),
+                      .first_corner = {},
+                      .corners = {}};
+    const auto walked = [&](size_t corner) {
+        const auto t = uint32_t(corner / 3);
+        return flesh.faces[t] == SkinFace::visible && is_skin(object, material_of_triangle(mesh, t)) &&
+               area_mm2(mesh, t) > 0;
+    };
+    std::vector<uint32_t>& first = made.first_corner;
+    first.resize(made.weld.count() + 1);
+    for (size_t corner = 0; corner < mesh.indices.size(); ++corner)
+        if (walked(corner)) ++first[made.weld.ids[mesh.indices[corner]] + 1];
+    for (size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+    made.corners.resize(first.back());
+    std::vector<uint32_t> next(first.begin(), first.end() - 1);
+    for (size_t corner = 0; corner < mesh.indices.size(); ++corner)
+        if (walked(corner)) made.corners[next[made.weld.ids[mesh.indices[corner]]]++] = uint32_t(corner);
+    return made;
+}
+
+// Sums of weights by vertex.
+class Row {
+  public:
+    void add(const LinkedObject& object, uint32_t triangle, const std::array<float, 3>& weights, Vec3 value) {
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t id = object.weld.ids[object.mesh->indices[3 * triangle + k]];
+            links_.push_back({object.first_vertex + object.weld.first[id], value * weights[k]});
+        }
+        if (links_.size() > limit_) merge();
+    }
+    void add(std::span<const VertexLink> links, Vec3 factor) {
+        for (const VertexLink& link : links) links_.push_back({link.vertex, link.weight * factor});
+    }
+    void add(const Row& other, Vec3 factor) { add(other.links_, factor); }
+    /// A copy, as long as it needs to be: there is one for each vertex.
+    [[nodiscard]] std::vector<VertexLink> merged() {
+        merge();
+        return {links_.begin(), links_.end()};
+    }
+
+  private:
+    void merge() {
+        std::ranges::sort(links_, {}, &VertexLink::vertex);
+        size_t kept = 0;
+        for (const VertexLink link : links_) {
+            if (kept > 0 && links_[kept - 1].vertex == link.vertex)
+                links_[kept - 1].weight += link.weight;
+            else
+                links_[kept++] = link;
+        }
+        links_.resize(kept);
+        limit_ = std::max(kLeastLimit, 2 * kept);
+    }
+
+    static constexpr size_t kLeastLimit = 4096;
+    std::vector<VertexLink> links_;
+    size_t limit_ = kLeastLimit;
+};
+
+// A point of the triangle of a corner, with density falling from the corner to nothing at its edge: Dirichlet
+// (2, 1, 1), by gamma variates.
+std::array<float, 3> weights_near(uint32_t corner, Pcg32& random) {
+    const auto exponential = [&] { return -std::log(std::max(1 - random.next_1d(), 1e-7f)); };
+    const float own = exponential() + exponential(), b = exponential(), c = exponential();
+    const float per_sum = 1 / (own + b + c);
+    std::array<float, 3> weights;
+    weights[corner % 3] = own * per_sum;
+    weights[(corner + 1) % 3] = b * per_sum;
+    weights[(corner + 2) % 3] = c * per_sum;
+    return weights;
+}
+
+struct Start {
+    uint32_t triangle;
+    std::array<float, 3> weights;
+    Vec3 p_mm, n;
+};
+
+float mean(const Rgb& v) {
+    return float((v[0] + v[1] + v[2]) / 3);
+}
+
+// Density of the probes per mm^2 of the tangent plane, and the profile of each channel.
+struct ProfileAt {
+    float density;
+    Vec3 reflectance;
+};
+ProfileAt profile_at(const GaussianSum& profile, double r_mm) {
+    double rgb[3] = {}, density = 0, total = 0;
+    for (const GaussianTerm& term : profile.terms) {
+        const double g =
+            std::exp(-r_mm * r_mm / (2 * term.variance_mm2)) / (2 * std::numbers::pi * term.variance_mm2);
+        for (size_t c = 0; c < 3; ++c) rgb[c] += term.weight[c] * g;
+        density += double(mean(term.weight)) * g;
+        total += double(mean(term.weight));
+    }
+    return {float(density / total), {float(rgb[0]), float(rgb[1]), float(rgb[2])}};
+}
+
+float sample_radius_mm(const GaussianSum& profile, Pcg32& random) {
+    float total = 0;
+    for (const GaussianTerm& term : profile.terms) total += mean(term.weight);
+    float u = random.next_1d() * total;
+    double variance = profile.terms.back().variance_mm2;
+    for (const GaussianTerm& term : profile.terms) {
+        if (u < mean(term.weight)) {
+            variance = term.variance_mm2;
+            break;
+        }
+        u -= mean(term.weight);
+    }
+    return float(std::sqrt(-2 * variance * std::log(double(std::max(1 - random.next_1d(), 1e-7f)))));
+}
+
+// Of the surface over a point of the tangent plane, the part nearest to it that faces the same way.
+std::optional<RayHit> nearest_on_surface(const RayScene& rays, Vec3 q_mm, Vec3 n, float reach_mm) {
+    HitBuffer<16> buffer;
+    const size_t count = rays.all_hits(
+        RaySet::skin, {.origin_mm = q_mm + n * reach_mm, .direction = -n, .max_mm = 2 * reach_mm},
+        buffer.hits());
+    std::optional<RayHit> best;
+    for (const RayHit& hit : buffer.hits().first(count)) {
+        if (dot(hit.n_face, n) <= 0) continue;
+        if (!best || std::abs(hit.distance_mm - reach_mm) < std::abs(best->distance_mm - reach_mm))
+            best = hit;
+    }
+    return best;
+}
+
+// Adds what the profile brings from one point; returns its weights, by which the row is normalised.
+Vec3 probe(const LinkTask& task, const Start& start, Pcg32& random, Row& row) {
+    const float r_mm = sample_radius_mm(*task.profile, random),
+                angle = 2 * std::numbers::pi_v<float> * random.next_1d();
+    const LocalFrame frame = frame_of(start.n);
+    const Vec3 q_mm =
+        start.p_mm + frame.tangent * (r_mm * std::cos(angle)) + frame.bitangent * (r_mm * std::sin(angle));
+    const auto hit = nearest_on_surface(*task.rays, q_mm, start.n, 1 + 2 * r_mm);
+    if (!hit) return {};
+    const Vec3 y_mm = q_mm + start.n * (1 + 2 * r_mm - hit->distance_mm);
+    const float density = profile_at(*task.profile, double(r_mm)).density;
+    const Vec3 value = profile_at(*task.profile, double(length(y_mm - start.p_mm))).reflectance *
+                       (1 / (density * std::max(dot(hit->n_face, start.n), kLeastCosine)));
+    row.add(task.objects[hit->object], hit->triangle, {1 - hit->u - hit->v, hit->u, hit->v}, value);
+    return value;
+}
+
+void walk_from(const LinkTask& task, const LinkedObject& object, const Start& start, float lead, float share,
+               Pcg32& random, Row& row) {
+    FleshBoundary boundary(*task.rays);
+    const Vec3 direction = sample_entry_direction(start.n, task.medium.eta, random);
+    const auto [end, flat] =
+        guided_walk_and_flat(task.medium, task.guide, boundary, start.p_mm, start.n, direction, lead, random);
+    const RayHit& last = boundary.last();
+    if (end.throughput != Vec3{} && last.object != kCapObject)
+        row.add(task.objects[last.object], last.triangle, {1 - last.u - last.v, last.u, last.v},
+                end.throughput * task.per_flat * share);
+    row.add(object, start.triangle, start.weights, flat.throughput * task.per_flat * -share);
+}
+
+Vec3 place_mm(std::span<const LinkedObject> objects, uint32_t vertex) {
+    for (size_t i = objects.size(); i-- > 0;)
+        if (vertex >= objects[i].first_vertex)
+            return objects[i].mesh->positions_mm[vertex - objects[i].first_vertex];
+    return {};
+}
+
+float size_of(const VertexLink& link) {
+    return std::abs(link.weight.x) + std::abs(link.weight.y) + std::abs(link.weight.z);
+}
+
+// The largest links; the others are added to the nearest of them.
+void keep_largest(const LinkTask& task, std::vector<VertexLink>& links) {
+    const auto most = size_t(task.settings.most_links);
+    if (links.size() <= most) return;
+    std::ranges::sort(links, std::ranges::greater{}, size_of);
+    for (const VertexLink& link : std::span(links).subspan(most)) {
+        const Vec3 p_mm = place_mm(task.objects, link.vertex);
+        const auto far_mm = [&](const VertexLink& kept) {
+            return length(place_mm(task.objects, kept.vertex) - p_mm);
+        };
+        std::ranges::min_element(links.begin(), links.begin() + ptrdiff_t(most), {}, far_mm)->weight +=
+            link.weight;
+    }
+    links.resize(most);
+}
+
+// The corners around a position, to be drawn by area.
+class Star {
+  public:
+    Star(const LinkedObject& object, uint32_t position)
+        : mesh_(*object.mesh), corners_(object.around(position)) {
+        for (const uint32_t corner : corners_) sums_mm2_.push_back(area_mm2_ += area_mm2(mesh_, corner / 3));
+    }
+    [[nodiscard]] bool empty() const { return corners_.empty(); }
+    [[nodiscard]] float area() const { return area_mm2_; }
+    [[nodiscard]] Start draw(float u, Pcg32& random) const {
+        const auto found = std::ranges::upper_bound(sums_mm2_, u * area_mm2_) - sums_mm2_.begin();
+        const uint32_t corner = corners_[std::min(size_t(found), corners_.size() - 1)], triangle = corner / 3;
+        const auto [a, b, c] = corners_mm(mesh_, triangle);
+        const auto w = weights_near(corner, random);
+        return {triangle, w, a * w[0] + b * w[1] + c * w[2], face_normal(mesh_, triangle)};
+    }
+
+  private:
+    const Mesh& mesh_;
+    std::span<const uint32_t> corners_;
+    std::vector<float> sums_mm2_;
+    float area_mm2_ = 0;
+};
+
+// Walks and, in place of the light where they start, what the profile brings there; a colour that the profile
+// does not have stays.
+std::vector<VertexLink> links_of(const LinkTask& task, const LinkedObject& object, uint32_t position,
+                                 uint32_t seed) {
+    const Star star(object, position);
+    if (star.empty()) return {};
+    const int walks = std::max(task.settings.least_walks, int(star.area() / 3 * task.settings.walks_per_mm2));
+    const float share = 1 / float(walks);
+    Row walked, blurred, started;
+    Vec3 total;
+    for (int i = 0; i < walks; ++i) {
+        Pcg32 random(seed, uint32_t(i));
+        const float u = (float(i) + random.next_1d()) * share;
+        const Start start = star.draw(u, random);
+        walk_from(task, object, start, golden_1d(hash_u32(seed, 1), uint32_t(i)), share, random, walked);
+        total += probe(task, start, random, blurred);
+        started.add(object, start.triangle, start.weights, Vec3{share, share, share});
+    }
+    const auto inverse = [](float x) { return x > 0 ? 1 / x : 0.0f; };
+    const Vec3 per_total = {inverse(total.x), inverse(total.y), inverse(total.z)};
+    const Vec3 has = {float(total.x > 0), float(total.y > 0), float(total.z > 0)};
+    walked.add(blurred, per_total * -1.0f);
+    walked.add(started, has);
+    return walked.merged();
+}
+
+using Rows = std::vector<std::vector<VertexLink>>;
+
+// Half of each row is the mean of those around it, by area.
+Rows smoothed(const LinkedObject& object, const Rows& rows) {
+    const Mesh& mesh = *object.mesh;
+    Rows made(rows.size());
+    const auto smooth = [&](size_t r) {
+        if (rows[r].empty()) return;
+        const auto corners = object.around(uint32_t(r));
+        float area = 0;
+        for (const uint32_t corner : corners) area += area_mm2(mesh, corner / 3);
+        Row row;
+        row.add(rows[r], Vec3{0.5f, 0.5f, 0.5f});
+        for (const uint32_t corner : corners) {
+            const uint32_t t = corner / 3;
+            const float share = 0.25f * area_mm2(mesh, t) / area;
+            for (const uint32_t k : {1u, 2u}) {
+                const uint32_t beside = object.weld.ids[mesh.indices[3 * t + (corner + k) % 3]];
+                row.add(rows[beside], Vec3{share, share, share});
+            }
+        }
+        made[r] = row.merged();
+    };
+    parallel_for(rows.size(), kRowsPerTask, [&](size_t begin, size_t end) {
+        for (size_t r = begin; r < end; ++r) smooth(r);
+    });
+    return made;
+}
+
+Rows rows_of(const LinkTask& task, const LinkedObject& object, uint32_t seed, Progress& progress) {
+    Rows rows(object.weld.count());
+    const auto for_rows = [&](const auto& change) {
+        parallel_for(rows.size(), kRowsPerTask, [&](size_t begin, size_t end) {
+            for (size_t r = begin; r < end; ++r) change(r);
+        });
+    };
+    for_rows([&](size_t r) {
+        rows[r] = links_of(task, object, uint32_t(r), hash_u32(seed, uint32_t(r)));
+        progress.advance();
+    });
+    for (int i = 0; i < kSmoothings; ++i) rows = smoothed(object, rows);
+    for_rows([&](size_t r) { keep_largest(task, rows[r]); });
+    return rows;
+}
+
+void append(const LinkedObject& object, const Rows& rows, VertexLinks& links) {
+    std::vector<uint32_t> numbers;
+    for (const std::vector<VertexLink>& row : rows) {
+        numbers.push_back(row.empty() ? 0 : uint32_t(links.first.size() - 1));
+        if (row.empty()) continue;
+        links.links.insert(links.links.end(), row.begin(), row.end());
+        links.first.push_back(uint32_t(links.links.size()));
+    }
+    std::vector<uint32_t>& of_vertices = links.rows.emplace_back();
+    for (const uint32_t id : object.weld.ids) of_vertices.push_back(numbers[id]);
+}
+
+Result<VertexLinks> walk(std::span<const SceneObject> objects, const ScatteringMedium& medium,
+                         const GaussianSum& profile, const VertexLinkSettings& settings) {
+    DERMIS_TRY_ASSIGN(const std::vector<Flesh> flesh, find_flesh(objects));
+    DERMIS_TRY_ASSIGN(const RayScene rays, RayScene::build(objects, flesh));
+    std::vector<LinkedObject> all;
+    uint32_t vertices = 0;
+    size_t total = 0;
+    for (size_t i = 0; i < objects.size(); ++i) {
+        all.push_back(linked(objects[i], flesh[i], vertices));
+        vertices += uint32_t(objects[i].mesh.positions_mm.size());
+        total += all.back().weld.count();
+    }
+    const Vec3 flat = guided_half_space_albedo(medium, kFlatWalks, 1).mean;
+    const auto inverse = [](float x) { return x > 0 ? 1 / x : 0.0f; };
+    const LinkTask task = {.rays = &rays,
+                           .objects = all,
+                           .medium = walk_medium(medium),
+                           .guide = walk_guide_of_pairs(medium),
+                           .per_flat = {inverse(flat.x), inverse(flat.y), inverse(flat.z)},
+                           .profile = &profile,
+                           .settings = settings};
+    VertexLinks made{.rows = {}, .first = {0, 0}, .links = {}};
+    Progress progress("links by walks", total);
+    for (size_t i = 0; i < all.size(); ++i)
+        append(all[i], rows_of(task, all[i], hash_u32(uint32_t(i), 9), progress), made);
+    if (made.links.empty()) return Error{"there is no skin that returns light to the outside"};
+    return made;
+}
+
+Result<void> check_settings(const VertexLinkSettings& s) {
+    if (!(s.walks_per_mm2 >= 0.1f && s.walks_per_mm2 <= 10000))
+        return Error{"walks per mm^2 are " + to_text(s.walks_per_mm2) + ", not within 0.1..10000"};
+    if (s.least_walks < 1 || s.least_walks > 1'000'000)
+        return Error{"the least walks of a vertex are " + std::to_string(s.least_walks) +
+                     ", not within 1..1000000"};
+    if (s.most_links < 1 || s.most_links > 1024)
+        return Error{"the most links of a vertex are " + std::to_string(s.most_links) +
+                     ", not within 1..1024"};
+    return {};
+}
+
+}  // namespace
+
+Result<VertexLinks> walk_vertex_links(std::span<const SceneObject> objects, const ScatteringMedium& medium,
+                                      const GaussianSum& profile, const VertexLinkSettings& settings) {
+    DERMIS_TRY(check_settings(settings));
+    Hasher hasher;
+    hasher.add(std::string_view("links 1"));
+    hasher.add(rays_version()).add(medium.g).add(medium.eta);
+    for (size_t c = 0; c < 3; ++c) hasher.add(medium.sigma_s_per_mm[c]).add(medium.sigma_a_per_mm[c]);
+    for (const GaussianTerm& term : profile.terms)
+        hasher.add(term.variance_mm2).add(term.weight[0]).add(term.weight[1]).add(term.weight[2]);
+    hasher.add(settings.walks_per_mm2).add(settings.least_walks).add(settings.most_links);
+    for (const SceneObject& object : objects) add_shape(hasher, object);
+    const std::string key = hasher.hex();
+    VertexLinks links;
+    std::vector<uint32_t> counts, rows;
+    const auto parts = [&] { return std::tie(counts, rows, links.first, links.links); };
+    if (cache_load("vertex_links", key, parts())) {
+        auto row = rows.begin();
+        for (const uint32_t count : counts) {
+            links.rows.emplace_back(row, row + count);
+            row += count;
+        }
+        return links;
+    }
+    DERMIS_TRY_ASSIGN(links, walk(objects, medium, profile, settings));
+    for (const std::vector<uint32_t>& of_object : links.rows) {
+        counts.push_back(uint32_t(of_object.size()));
+        rows.insert(rows.end(), of_object.begin(), of_object.end());
+    }
+    cache_store("vertex_links", key, parts());
+    return links;
+}
+
+}  // namespace dermis::inline rays
