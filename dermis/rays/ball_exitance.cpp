@@ -35,38 +35,42 @@ double mean_cosine_on_circle(double angle_rad, double n_dot_l) {
     return (a * lit_rad + b * std::sin(lit_rad)) / std::numbers::pi;
 }
 
-struct Ended {
-    Vec3 throughput;
-    float angle_rad = 0;
-};
+constexpr Vec3 kUp = {0, 0, 1};  // outwards where walks start
 
-std::vector<Ended> walk_in_ball(const ScatteringMedium& medium, double curvature_per_mm, int walks) {
+// Plain: guides towards a plane do not help in a ball.
+template <class Boundary>
+std::vector<WalkEnd> walk_in(const Boundary& boundary, const ScatteringMedium& medium, int walks) {
     const WalkMedium prepared = walk_medium(medium);
-    const SphereBoundary ball(curvature_per_mm);
-    std::vector<Ended> ends(static_cast<size_t>(walks));
+    std::vector<WalkEnd> ends(static_cast<size_t>(walks));
     parallel_for(ends.size(), 256, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             Pcg32 random(7, uint32_t(i));
-            const Vec3 up = {0, 0, 1}, start = sample_entry_direction(up, prepared.eta, random);
-            // Plain: guides towards a plane do not help in a ball.
-            const WalkEnd path = random_walk(prepared, ball, {}, start, random);
-            // The angle from the chord: an angle from a cosine would lose small ones to rounding.
-            const double sine = std::min(0.5 * length(path.p_mm) * curvature_per_mm, 1.0);
-            ends[i] = {path.throughput, float(2 * std::asin(sine))};
+            const Vec3 start = sample_entry_direction(kUp, prepared.eta, random);
+            ends[i] = random_walk(prepared, boundary, {}, start, random);
         }
     });
     return ends;
 }
 
-BallExitance ball_exitance(const ScatteringMedium& medium, double curvature_per_mm, int walks, Vec3 flat) {
+// Of walks by the same random numbers as in the balls: most of their noise cancels in the quotient.
+Rgb flat_returns(const ScatteringMedium& medium, int walks) {
+    Rgb sum = {0, 0, 0};
+    for (const WalkEnd& end : walk_in(PlaneBoundary{{}, kUp}, medium, walks))
+        for (size_t c = 0; c < 3; ++c) sum[c] += end.throughput.*kChannelOf[c];
+    return sum;
+}
+
+BallExitance ball_exitance(const ScatteringMedium& medium, double curvature_per_mm, int walks,
+                           const Rgb& flat) {
     BallExitance ball{.curvature_per_mm = curvature_per_mm, .share = std::vector<Rgb>(kClasses)};
     for (Rgb& share : ball.share) share = {0, 0, 0};
-    for (const Ended& end : walk_in_ball(medium, curvature_per_mm, walks))
-        for (size_t c = 0; c < 3; ++c) {
-            const double returned = flat.*kChannelOf[c];
-            if (returned > 0)
-                ball.share[class_of(end.angle_rad)][c] += end.throughput.*kChannelOf[c] / returned / walks;
-        }
+    for (const WalkEnd& end : walk_in(SphereBoundary(curvature_per_mm), medium, walks)) {
+        // The angle from the chord: an angle from a cosine would lose small ones to rounding.
+        const double sine = std::min(0.5 * length(end.p_mm) * curvature_per_mm, 1.0);
+        Rgb& share = ball.share[class_of(2 * std::asin(sine))];
+        for (size_t c = 0; c < 3; ++c)
+            if (flat[c] > 0) share[c] += end.throughput.*kChannelOf[c] / flat[c];
+    }
     return ball;
 }
 
@@ -86,7 +90,7 @@ std::vector<BallExitance> walk_balls(const ScatteringMedium& medium,
     std::vector<BallExitance> balls;
     if (!cache_load("balls", hasher.hex(), std::tie(shares))) {
         shares.clear();
-        const Vec3 flat = half_space_albedo(medium, std::nullopt, 8 * walks, 3).mean;
+        const Rgb flat = flat_returns(medium, walks);
         for (const double curvature : curvatures_per_mm) {
             const BallExitance ball = ball_exitance(medium, curvature, walks, flat);
             shares.insert(shares.end(), ball.share.begin(), ball.share.end());

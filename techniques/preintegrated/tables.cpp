@@ -78,7 +78,7 @@ Result<TableImage> diffuse_table(const TableSettings& settings, const SkinContex
 // Light over N.L on balls of the table's curvatures, over the form of their gain, which the shader multiplies
 // by. Linear between the balls that are walked; flat skin is Lambert's.
 TableImage walked_table(const SkinContext& skin) {
-    constexpr int kWalks = 1 << 16;
+    constexpr int kWalks = 1 << 18;
     const std::vector<double> curvatures = {1.0 / 64, 1.0 / 32, 1.0 / 16, 3.0 / 32, 1.0 / 8, 3.0 / 16,
                                             1.0 / 4,  3.0 / 8,  1.0 / 2,  3.0 / 4,  1.0};
     const ScatteringMedium medium = walk_medium_of(skin.profile);
