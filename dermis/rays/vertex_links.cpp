@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include "dermis/base/cache.h"
 #include "dermis/base/hash.h"
@@ -23,7 +26,12 @@ namespace {
 
 constexpr int kFlatWalks = 3 << 17;
 constexpr size_t kRowsPerTask = 64;
-constexpr int kSmoothings = 2;
+constexpr int kSmoothings = 2, kFarSmoothings = 5;
+constexpr float kSmoothedPart = 0.5f, kFarSmoothedPart = 0.8f;
+// Farther, or on skin that faces away, light comes through the body: few walks bring it, and it changes
+// slowly.
+constexpr float kNearMm = 3;
+constexpr float kFarSpacingMm = 2;    // of the vertices that it is taken to come from
 constexpr float kLeastCosine = 0.1f;  // of a surface to the ray that finds it
 
 // Of one object: its vertices by position, and the visible triangles of skin around each.
@@ -47,6 +55,7 @@ float area_mm2(const Mesh& mesh, uint32_t triangle) {
 struct LinkTask {
     const RayScene* rays;
     std::span<const LinkedObject> objects;
+    std::span<const uint32_t> coarse;  // of each vertex: the one that stands for those around it
     WalkMedium medium;
     WalkGuide guide;
     Vec3 per_flat;  // one over what flat skin returns
@@ -217,11 +226,15 @@ void walk_from(const LinkTask& task, const LinkedObject& object, const Start& st
     row.add(object, start.triangle, start.weights, flat.throughput * task.per_flat * -share);
 }
 
+std::pair<const Mesh*, uint32_t> vertex_of(std::span<const LinkedObject> objects, uint32_t vertex) {
+    size_t i = objects.size() - 1;
+    while (vertex < objects[i].first_vertex) --i;
+    return {objects[i].mesh, vertex - objects[i].first_vertex};
+}
+
 Vec3 place_mm(std::span<const LinkedObject> objects, uint32_t vertex) {
-    for (size_t i = objects.size(); i-- > 0;)
-        if (vertex >= objects[i].first_vertex)
-            return objects[i].mesh->positions_mm[vertex - objects[i].first_vertex];
-    return {};
+    const auto [mesh, v] = vertex_of(objects, vertex);
+    return mesh->positions_mm[v];
 }
 
 float size_of(const VertexLink& link) {
@@ -229,14 +242,13 @@ float size_of(const VertexLink& link) {
 }
 
 // The largest links; the others are added to the nearest of them.
-void keep_largest(const LinkTask& task, std::vector<VertexLink>& links) {
-    const auto most = size_t(task.settings.most_links);
+void keep_largest(std::span<const LinkedObject> objects, size_t most, std::vector<VertexLink>& links) {
     if (links.size() <= most) return;
     std::ranges::sort(links, std::ranges::greater{}, size_of);
     for (const VertexLink& link : std::span(links).subspan(most)) {
-        const Vec3 p_mm = place_mm(task.objects, link.vertex);
+        const Vec3 p_mm = place_mm(objects, link.vertex);
         const auto far_mm = [&](const VertexLink& kept) {
-            return length(place_mm(task.objects, kept.vertex) - p_mm);
+            return length(place_mm(objects, kept.vertex) - p_mm);
         };
         std::ranges::min_element(links.begin(), links.begin() + ptrdiff_t(most), {}, far_mm)->weight +=
             link.weight;
@@ -294,31 +306,91 @@ std::vector<VertexLink> links_of(const LinkTask& task, const LinkedObject& objec
     return walked.merged();
 }
 
+// The middle one of all vertices in a cell of a grid whose normals lie in one octant: so both sides of a thin
+// part have their own.
+std::vector<uint32_t> coarse_vertices(std::span<const LinkedObject> objects, uint32_t vertices) {
+    struct Cell {
+        Vec3 sum_mm;
+        float count = 0;
+        uint32_t middle = 0;
+        float off_mm = std::numeric_limits<float>::max();
+    };
+    std::map<std::array<int, 4>, Cell> cells;
+    std::vector<Cell*> of_vertices(vertices);
+    for (const LinkedObject& object : objects)
+        for (uint32_t v = 0; v < object.mesh->positions_mm.size(); ++v) {
+            const Vec3 p_mm = object.mesh->positions_mm[v], n = object.mesh->normals[v];
+            const auto along = [](float x_mm) { return int(std::floor(x_mm / kFarSpacingMm)); };
+            const int octant = int(n.x > 0) | int(n.y > 0) << 1 | int(n.z > 0) << 2;
+            Cell& cell = cells[{along(p_mm.x), along(p_mm.y), along(p_mm.z), octant}];
+            cell.sum_mm += p_mm, ++cell.count;
+            of_vertices[object.first_vertex + v] = &cell;
+        }
+    for (uint32_t v = 0; v < vertices; ++v) {
+        Cell& cell = *of_vertices[v];
+        const float off_mm = length(place_mm(objects, v) - cell.sum_mm * (1 / cell.count));
+        if (off_mm < cell.off_mm) cell.off_mm = off_mm, cell.middle = v;
+    }
+    std::vector<uint32_t> coarse(vertices);
+    for (uint32_t v = 0; v < vertices; ++v) coarse[v] = of_vertices[v]->middle;
+    return coarse;
+}
+
+// Moves the links out of a row that end far from its vertex.
+std::vector<VertexLink> split_far(const LinkTask& task, const LinkedObject& object, uint32_t position,
+                                  std::vector<VertexLink>& row) {
+    const uint32_t v = object.weld.first[position];
+    const Vec3 p_mm = object.mesh->positions_mm[v], n = object.mesh->normals[v];
+    const auto is_near = [&](const VertexLink& link) {
+        const auto [mesh, u] = vertex_of(task.objects, link.vertex);
+        return length(mesh->positions_mm[u] - p_mm) <= kNearMm && dot(mesh->normals[u], n) > 0;
+    };
+    const auto middle = std::partition(row.begin(), row.end(), is_near);
+    Row far;
+    for (const VertexLink& link : std::span(middle, row.end()))
+        far.add(std::array{VertexLink{task.coarse[link.vertex], link.weight}}, Vec3{1, 1, 1});
+    row.erase(middle, row.end());
+    return far.merged();
+}
+
 using Rows = std::vector<std::vector<VertexLink>>;
 
-// Half of each row is the mean of those around it, by area.
-Rows smoothed(const LinkedObject& object, const Rows& rows) {
+// The positions around one and their shares of the area, each once.
+std::vector<std::pair<uint32_t, float>> shares_around(const LinkedObject& object, uint32_t position) {
     const Mesh& mesh = *object.mesh;
-    Rows made(rows.size());
-    const auto smooth = [&](size_t r) {
-        if (rows[r].empty()) return;
-        const auto corners = object.around(uint32_t(r));
-        float area = 0;
-        for (const uint32_t corner : corners) area += area_mm2(mesh, corner / 3);
-        Row row;
-        row.add(rows[r], Vec3{0.5f, 0.5f, 0.5f});
-        for (const uint32_t corner : corners) {
-            const uint32_t t = corner / 3;
-            const float share = 0.25f * area_mm2(mesh, t) / area;
-            for (const uint32_t k : {1u, 2u}) {
-                const uint32_t beside = object.weld.ids[mesh.indices[3 * t + (corner + k) % 3]];
-                row.add(rows[beside], Vec3{share, share, share});
-            }
+    std::vector<std::pair<uint32_t, float>> shares;
+    float area = 0;
+    for (const uint32_t corner : object.around(position)) {
+        const uint32_t t = corner / 3;
+        const float own = area_mm2(mesh, t);
+        area += own;
+        for (const uint32_t k : {1u, 2u}) {
+            const uint32_t beside = object.weld.ids[mesh.indices[3 * t + (corner + k) % 3]];
+            const auto known = std::ranges::find(shares, beside, &std::pair<uint32_t, float>::first);
+            if (known == shares.end())
+                shares.emplace_back(beside, own / 2);
+            else
+                known->second += own / 2;
         }
+    }
+    for (auto& [beside, share] : shares) share /= area;
+    return shares;
+}
+
+// A part of each row becomes the mean of those around it, by area.
+Rows smoothed(const LinkedObject& object, const Rows& rows, float part) {
+    Rows made(rows.size());
+    const auto smooth = [&](uint32_t r) {
+        if (object.around(r).empty()) return;
+        Row row;
+        row.add(rows[r], Vec3{1, 1, 1} * (1 - part));
+        // What is not skin has no walks.
+        for (const auto& [beside, share] : shares_around(object, r))
+            row.add(rows[object.around(beside).empty() ? r : beside], Vec3{1, 1, 1} * (part * share));
         made[r] = row.merged();
     };
     parallel_for(rows.size(), kRowsPerTask, [&](size_t begin, size_t end) {
-        for (size_t r = begin; r < end; ++r) smooth(r);
+        for (size_t r = begin; r < end; ++r) smooth(uint32_t(r));
     });
     return made;
 }
@@ -334,8 +406,17 @@ Rows rows_of(const LinkTask& task, const LinkedObject& object, uint32_t seed, Pr
         rows[r] = links_of(task, object, uint32_t(r), hash_u32(seed, uint32_t(r)));
         progress.advance();
     });
-    for (int i = 0; i < kSmoothings; ++i) rows = smoothed(object, rows);
-    for_rows([&](size_t r) { keep_largest(task, rows[r]); });
+    for (int i = 0; i < kSmoothings; ++i) rows = smoothed(object, rows, kSmoothedPart);
+    Rows far(rows.size());
+    for_rows([&](size_t r) { far[r] = split_far(task, object, uint32_t(r), rows[r]); });
+    for (int i = 0; i < kFarSmoothings; ++i) far = smoothed(object, far, kFarSmoothedPart);
+    // Apart, or the light through thick parts, of many small links, would be taken to come from nearby.
+    for_rows([&](size_t r) {
+        const auto most = size_t(task.settings.most_links);
+        keep_largest(task.objects, std::max(most * 3 / 8, size_t(1)), rows[r]);
+        keep_largest(task.objects, most - rows[r].size(), far[r]);
+        rows[r].insert(rows[r].end(), far[r].begin(), far[r].end());
+    });
     return rows;
 }
 
@@ -363,10 +444,12 @@ Result<VertexLinks> walk(std::span<const SceneObject> objects, const ScatteringM
         vertices += uint32_t(objects[i].mesh.positions_mm.size());
         total += all.back().weld.count();
     }
+    const std::vector<uint32_t> coarse = coarse_vertices(all, vertices);
     const Vec3 flat = guided_half_space_albedo(medium, kFlatWalks, 1).mean;
     const auto inverse = [](float x) { return x > 0 ? 1 / x : 0.0f; };
     const LinkTask task = {.rays = &rays,
                            .objects = all,
+                           .coarse = coarse,
                            .medium = walk_medium(medium),
                            .guide = walk_guide_of_pairs(medium),
                            .per_flat = {inverse(flat.x), inverse(flat.y), inverse(flat.z)},
@@ -386,9 +469,9 @@ Result<void> check_settings(const VertexLinkSettings& s) {
     if (s.least_walks < 1 || s.least_walks > 1'000'000)
         return Error{"the least walks of a vertex are " + std::to_string(s.least_walks) +
                      ", not within 1..1000000"};
-    if (s.most_links < 1 || s.most_links > 1024)
+    if (s.most_links < 2 || s.most_links > 1024)
         return Error{"the most links of a vertex are " + std::to_string(s.most_links) +
-                     ", not within 1..1024"};
+                     ", not within 2..1024"};
     return {};
 }
 
@@ -398,7 +481,7 @@ Result<VertexLinks> walk_vertex_links(std::span<const SceneObject> objects, cons
                                       const GaussianSum& profile, const VertexLinkSettings& settings) {
     DERMIS_TRY(check_settings(settings));
     Hasher hasher;
-    hasher.add(std::string_view("links 1"));
+    hasher.add(std::string_view("links 5"));
     hasher.add(rays_version()).add(medium.g).add(medium.eta);
     for (size_t c = 0; c < 3; ++c) hasher.add(medium.sigma_s_per_mm[c]).add(medium.sigma_a_per_mm[c]);
     for (const GaussianTerm& term : profile.terms)

@@ -23,7 +23,7 @@ namespace dermis::inline rays {
 struct VertexLinkSettings {
     float walks_per_mm2 = 64;  ///< 0.1..10000
     int least_walks = 128;     ///< of a vertex, 1..1000000
-    int most_links = 32;       ///< of a vertex, 1..1024; the rest is added to the nearest of them
+    int most_links = 32;       ///< of a vertex, 2..1024; the rest is added to the nearest of them
 };
 
 struct VertexLink {
@@ -42,9 +42,14 @@ struct VertexLinks {
 /// Walks start with diffuse light in the visible triangles around a vertex, the more the nearer to it, and
 /// end as the reference's do. A walk in flat skin by the same random numbers is the control variate. The
 /// profile is sampled from the same points: along the normal, the surface nearest to the tangent plane that
-/// faces the same way. Half of a row is twice replaced by the mean of the rows around it, so that vertices
-/// share their walks. Even light on flat skin gives 0. Deterministic; cached by content. Cost: about 2
-/// microseconds a walk. Errors: settings out of range, no skin, the ray library fails.
+/// faces the same way. Even light on flat skin gives 0.
+///
+/// Rows are blurred over the surface, so that vertices share their walks: by about the distance of two
+/// vertices, and more where light comes through the body, from skin that faces away or is 3 mm away. Such
+/// skin has one vertex every 2 mm. At most three eighths of the links are near ones.
+///
+/// Deterministic; cached by content. Cost: about a millisecond of one core a vertex. Errors: settings out of
+/// range, no skin, the ray library fails.
 [[nodiscard]] Result<VertexLinks> walk_vertex_links(std::span<const SceneObject> objects,
                                                     const ScatteringMedium& medium,
                                                     const GaussianSum& profile,

@@ -94,6 +94,8 @@ ParameterTable parameters() {
                 "specular model; ksk reads its Beckmann distribution from a table")
         .preset("cheap", "scattering at shadow edges by the penumbra's width, no transmission",
                 {.shadow = Shadow::scattered, .transmission = Transmission::none})
+        .preset("best", "the light of walks from vertex to vertex: a minute of walks, then cached",
+                {.gain = Gain::links})
         .preset("source", "Penner 2011 as implemented in Unity: ring, derivatives, mixed normals",
                 {.diffuse = Diffuse::half_ring,
                  .curvature = Curvature::derivative,

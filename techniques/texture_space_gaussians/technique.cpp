@@ -55,6 +55,8 @@ ParameterTable parameters() {
                  .gaussians = Gaussians::profile,
                  .carry_seams = false,
                  .pre_scatter = 0.5f})
+        .preset("best", "the light of walks from vertex to vertex: a minute of walks, then cached",
+                {.atlas = {.gain = Gain::links}})
         .preset("cheap", "a coarser light map and fewer taps",
                 {.atlas = {.light_map_size = 256}, .half_taps = 2})
         .build();

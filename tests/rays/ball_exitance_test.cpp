@@ -35,8 +35,8 @@ TEST(BallExitance, LightFromAllAroundIsTheGain) {
     }
 }
 
-// By few walks, whose light itself is off by half a hundredth: it is divided by that of the same walks in flat
-// skin.
+// By few walks, whose light itself is off by half a hundredth: it is divided by that of the same walks in
+// flat skin.
 TEST(BallExitance, OfALargeBallHasLittleOfTheWalksNoise) {
     const ScatteringMedium medium = walk_medium_of(*find_profile("openpbr_skin_3"));
     const std::vector<double> curvatures = {1.0 / 64};
