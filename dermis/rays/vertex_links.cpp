@@ -26,11 +26,10 @@ namespace {
 
 constexpr int kFlatWalks = 3 << 17;
 constexpr size_t kRowsPerTask = 64;
-constexpr int kSmoothings = 2, kFarSmoothings = 5;
-constexpr float kSmoothedPart = 0.5f, kFarSmoothedPart = 0.8f;
+constexpr int kSmoothings = 2, kFarSmoothings = 2;
 // Farther, or on skin that faces away, light comes through the body: few walks bring it, and it changes
 // slowly.
-constexpr float kNearMm = 3;
+constexpr float kNearMm = 8;
 constexpr float kFarSpacingMm = 2;    // of the vertices that it is taken to come from
 constexpr float kLeastCosine = 0.1f;  // of a surface to the ray that finds it
 
@@ -377,16 +376,16 @@ std::vector<std::pair<uint32_t, float>> shares_around(const LinkedObject& object
     return shares;
 }
 
-// A part of each row becomes the mean of those around it, by area.
-Rows smoothed(const LinkedObject& object, const Rows& rows, float part) {
+// Half of each row becomes the mean of those around it, by area.
+Rows smoothed(const LinkedObject& object, const Rows& rows) {
     Rows made(rows.size());
     const auto smooth = [&](uint32_t r) {
         if (object.around(r).empty()) return;
         Row row;
-        row.add(rows[r], Vec3{1, 1, 1} * (1 - part));
+        row.add(rows[r], Vec3{0.5f, 0.5f, 0.5f});
         // What is not skin has no walks.
         for (const auto& [beside, share] : shares_around(object, r))
-            row.add(rows[object.around(beside).empty() ? r : beside], Vec3{1, 1, 1} * (part * share));
+            row.add(rows[object.around(beside).empty() ? r : beside], Vec3{0.5f, 0.5f, 0.5f} * share);
         made[r] = row.merged();
     };
     parallel_for(rows.size(), kRowsPerTask, [&](size_t begin, size_t end) {
@@ -406,14 +405,14 @@ Rows rows_of(const LinkTask& task, const LinkedObject& object, uint32_t seed, Pr
         rows[r] = links_of(task, object, uint32_t(r), hash_u32(seed, uint32_t(r)));
         progress.advance();
     });
-    for (int i = 0; i < kSmoothings; ++i) rows = smoothed(object, rows, kSmoothedPart);
+    for (int i = 0; i < kSmoothings; ++i) rows = smoothed(object, rows);
     Rows far(rows.size());
     for_rows([&](size_t r) { far[r] = split_far(task, object, uint32_t(r), rows[r]); });
-    for (int i = 0; i < kFarSmoothings; ++i) far = smoothed(object, far, kFarSmoothedPart);
+    for (int i = 0; i < kFarSmoothings; ++i) far = smoothed(object, far);
     // Apart, or the light through thick parts, of many small links, would be taken to come from nearby.
     for_rows([&](size_t r) {
         const auto most = size_t(task.settings.most_links);
-        keep_largest(task.objects, std::max(most * 3 / 8, size_t(1)), rows[r]);
+        keep_largest(task.objects, std::max(most * 5 / 8, size_t(1)), rows[r]);
         keep_largest(task.objects, most - rows[r].size(), far[r]);
         rows[r].insert(rows[r].end(), far[r].begin(), far[r].end());
     });
@@ -481,7 +480,7 @@ Result<VertexLinks> walk_vertex_links(std::span<const SceneObject> objects, cons
                                       const GaussianSum& profile, const VertexLinkSettings& settings) {
     DERMIS_TRY(check_settings(settings));
     Hasher hasher;
-    hasher.add(std::string_view("links 5"));
+    hasher.add(std::string_view("links 6"));
     hasher.add(rays_version()).add(medium.g).add(medium.eta);
     for (size_t c = 0; c < 3; ++c) hasher.add(medium.sigma_s_per_mm[c]).add(medium.sigma_a_per_mm[c]);
     for (const GaussianTerm& term : profile.terms)

@@ -45,8 +45,8 @@ struct VertexLinks {
 /// faces the same way. Even light on flat skin gives 0.
 ///
 /// Rows are blurred over the surface, so that vertices share their walks: by about the distance of two
-/// vertices, and more where light comes through the body, from skin that faces away or is 3 mm away. Such
-/// skin has one vertex every 2 mm. At most three eighths of the links are near ones.
+/// vertices, and more where light comes through the body, from skin that faces away or is 8 mm away. Such
+/// skin has one vertex every 2 mm. At most five eighths of the links are near ones.
 ///
 /// Deterministic; cached by content. Cost: about a millisecond of one core a vertex. Errors: settings out of
 /// range, no skin, the ray library fails.
