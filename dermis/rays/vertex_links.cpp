@@ -14,6 +14,7 @@
 #include "dermis/base/text.h"
 #include "dermis/mesh/topology.h"
 #include "dermis/rays/flesh_boundary.h"
+#include "dermis/rays/gaussian_probe.h"
 #include "dermis/rays/guided_walk.h"
 #include "dermis/rays/random.h"
 #include "dermis/rays/rays_version.h"
@@ -24,7 +25,7 @@
 namespace dermis::inline rays {
 namespace {
 
-constexpr int kFlatWalks = 3 << 17;
+constexpr int kFlatLinkWalks = 3 << 17;
 constexpr size_t kRowsPerTask = 64;
 constexpr int kSmoothings = 2, kFarSmoothings = 2;
 // Farther, or on skin that faces away, light comes through the body: few walks bring it, and it changes
@@ -46,7 +47,7 @@ struct LinkedObject {
     }
 };
 
-float area_mm2(const Mesh& mesh, uint32_t triangle) {
+float triangle_mm2(const Mesh& mesh, uint32_t triangle) {
     const auto [a, b, c] = corners_mm(mesh, triangle);
     return 0.5f * length(cross(b - a, c - a));
 }
@@ -72,7 +73,7 @@ LinkedObject linked(const SceneObject& object, const Flesh& flesh, uint32_t firs
     const auto walked = [&](size_t corner) {
         const auto t = uint32_t(corner / 3);
         return flesh.faces[t] == SkinFace::visible && is_skin(object, material_of_triangle(mesh, t)) &&
-               area_mm2(mesh, t) > 0;
+               triangle_mm2(mesh, t) > 0;
     };
     std::vector<uint32_t>& first = made.first_corner;
     first.resize(made.weld.count() + 1);
@@ -144,42 +145,6 @@ struct Start {
     Vec3 p_mm, n;
 };
 
-float mean(const Rgb& v) {
-    return float((v[0] + v[1] + v[2]) / 3);
-}
-
-// Density of the probes per mm^2 of the tangent plane, and the profile of each channel.
-struct ProfileAt {
-    float density;
-    Vec3 reflectance;
-};
-ProfileAt profile_at(const GaussianSum& profile, double r_mm) {
-    double rgb[3] = {}, density = 0, total = 0;
-    for (const GaussianTerm& term : profile.terms) {
-        const double g =
-            std::exp(-r_mm * r_mm / (2 * term.variance_mm2)) / (2 * std::numbers::pi * term.variance_mm2);
-        for (size_t c = 0; c < 3; ++c) rgb[c] += term.weight[c] * g;
-        density += double(mean(term.weight)) * g;
-        total += double(mean(term.weight));
-    }
-    return {float(density / total), {float(rgb[0]), float(rgb[1]), float(rgb[2])}};
-}
-
-float sample_radius_mm(const GaussianSum& profile, Pcg32& random) {
-    float total = 0;
-    for (const GaussianTerm& term : profile.terms) total += mean(term.weight);
-    float u = random.next_1d() * total;
-    double variance = profile.terms.back().variance_mm2;
-    for (const GaussianTerm& term : profile.terms) {
-        if (u < mean(term.weight)) {
-            variance = term.variance_mm2;
-            break;
-        }
-        u -= mean(term.weight);
-    }
-    return float(std::sqrt(-2 * variance * std::log(double(std::max(1 - random.next_1d(), 1e-7f)))));
-}
-
 // Of the surface over a point of the tangent plane, the part nearest to it that faces the same way.
 std::optional<RayHit> nearest_on_surface(const RayScene& rays, Vec3 q_mm, Vec3 n, float reach_mm) {
     HitBuffer<16> buffer;
@@ -197,7 +162,7 @@ std::optional<RayHit> nearest_on_surface(const RayScene& rays, Vec3 q_mm, Vec3 n
 
 // Adds what the profile brings from one point; returns its weights, by which the row is normalised.
 Vec3 probe(const LinkTask& task, const Start& start, Pcg32& random, Row& row) {
-    const float r_mm = sample_radius_mm(*task.profile, random),
+    const float r_mm = sample_probe_radius_mm(*task.profile, random),
                 angle = 2 * std::numbers::pi_v<float> * random.next_1d();
     const LocalFrame frame = frame_of(start.n);
     const Vec3 q_mm =
@@ -205,8 +170,8 @@ Vec3 probe(const LinkTask& task, const Start& start, Pcg32& random, Row& row) {
     const auto hit = nearest_on_surface(*task.rays, q_mm, start.n, 1 + 2 * r_mm);
     if (!hit) return {};
     const Vec3 y_mm = q_mm + start.n * (1 + 2 * r_mm - hit->distance_mm);
-    const float density = profile_at(*task.profile, double(r_mm)).density;
-    const Vec3 value = profile_at(*task.profile, double(length(y_mm - start.p_mm))).reflectance *
+    const float density = probe_at(*task.profile, double(r_mm)).density;
+    const Vec3 value = probe_at(*task.profile, double(length(y_mm - start.p_mm))).reflectance *
                        (1 / (density * std::max(dot(hit->n_face, start.n), kLeastCosine)));
     row.add(task.objects[hit->object], hit->triangle, {1 - hit->u - hit->v, hit->u, hit->v}, value);
     return value;
@@ -260,7 +225,8 @@ class Star {
   public:
     Star(const LinkedObject& object, uint32_t position)
         : mesh_(*object.mesh), corners_(object.around(position)) {
-        for (const uint32_t corner : corners_) sums_mm2_.push_back(area_mm2_ += area_mm2(mesh_, corner / 3));
+        for (const uint32_t corner : corners_)
+            sums_mm2_.push_back(area_mm2_ += triangle_mm2(mesh_, corner / 3));
     }
     [[nodiscard]] bool empty() const { return corners_.empty(); }
     [[nodiscard]] float area() const { return area_mm2_; }
@@ -361,7 +327,7 @@ std::vector<std::pair<uint32_t, float>> shares_around(const LinkedObject& object
     float area = 0;
     for (const uint32_t corner : object.around(position)) {
         const uint32_t t = corner / 3;
-        const float own = area_mm2(mesh, t);
+        const float own = triangle_mm2(mesh, t);
         area += own;
         for (const uint32_t k : {1u, 2u}) {
             const uint32_t beside = object.weld.ids[mesh.indices[3 * t + (corner + k) % 3]];
@@ -431,8 +397,8 @@ void append(const LinkedObject& object, const Rows& rows, VertexLinks& links) {
     for (const uint32_t id : object.weld.ids) of_vertices.push_back(numbers[id]);
 }
 
-Result<VertexLinks> walk(std::span<const SceneObject> objects, const ScatteringMedium& medium,
-                         const GaussianSum& profile, const VertexLinkSettings& settings) {
+Result<VertexLinks> walk_links(std::span<const SceneObject> objects, const ScatteringMedium& medium,
+                               const GaussianSum& profile, const VertexLinkSettings& settings) {
     DERMIS_TRY_ASSIGN(const std::vector<Flesh> flesh, find_flesh(objects));
     DERMIS_TRY_ASSIGN(const RayScene rays, RayScene::build(objects, flesh));
     std::vector<LinkedObject> all;
@@ -444,7 +410,7 @@ Result<VertexLinks> walk(std::span<const SceneObject> objects, const ScatteringM
         total += all.back().weld.count();
     }
     const std::vector<uint32_t> coarse = coarse_vertices(all, vertices);
-    const Vec3 flat = guided_half_space_albedo(medium, kFlatWalks, 1).mean;
+    const Vec3 flat = guided_half_space_albedo(medium, kFlatLinkWalks, 1).mean;
     const auto inverse = [](float x) { return x > 0 ? 1 / x : 0.0f; };
     const LinkTask task = {.rays = &rays,
                            .objects = all,
@@ -462,7 +428,7 @@ Result<VertexLinks> walk(std::span<const SceneObject> objects, const ScatteringM
     return made;
 }
 
-Result<void> check_settings(const VertexLinkSettings& s) {
+Result<void> check_link_settings(const VertexLinkSettings& s) {
     if (!(s.walks_per_mm2 >= 0.1f && s.walks_per_mm2 <= 10000))
         return Error{"walks per mm^2 are " + to_text(s.walks_per_mm2) + ", not within 0.1..10000"};
     if (s.least_walks < 1 || s.least_walks > 1'000'000)
@@ -478,7 +444,7 @@ Result<void> check_settings(const VertexLinkSettings& s) {
 
 Result<VertexLinks> walk_vertex_links(std::span<const SceneObject> objects, const ScatteringMedium& medium,
                                       const GaussianSum& profile, const VertexLinkSettings& settings) {
-    DERMIS_TRY(check_settings(settings));
+    DERMIS_TRY(check_link_settings(settings));
     Hasher hasher;
     hasher.add(std::string_view("links 6"));
     hasher.add(rays_version()).add(medium.g).add(medium.eta);
@@ -499,7 +465,7 @@ Result<VertexLinks> walk_vertex_links(std::span<const SceneObject> objects, cons
         }
         return links;
     }
-    DERMIS_TRY_ASSIGN(links, walk(objects, medium, profile, settings));
+    DERMIS_TRY_ASSIGN(links, walk_links(objects, medium, profile, settings));
     for (const std::vector<uint32_t>& of_object : links.rows) {
         counts.push_back(uint32_t(of_object.size()));
         rows.insert(rows.end(), of_object.begin(), of_object.end());
