@@ -31,7 +31,7 @@ constexpr int kSmoothings = 2, kFarSmoothings = 2;
 // Farther, or on skin that faces away, light comes through the body: few walks bring it, and it changes
 // slowly.
 constexpr float kNearMm = 8;
-constexpr float kFarSpacingMm = 2;    // of the vertices that it is taken to come from
+constexpr float kFarSpacingMm = 2;    // side of a cell whose light one vertex has
 constexpr float kLeastCosine = 0.1f;  // of a surface to the ray that finds it
 
 // Of one object: its vertices by position, and the visible triangles of skin around each.
@@ -55,7 +55,7 @@ float triangle_mm2(const Mesh& mesh, uint32_t triangle) {
 struct LinkTask {
     const RayScene* rays;
     std::span<const LinkedObject> objects;
-    std::span<const uint32_t> coarse;  // of each vertex: the one that stands for those around it
+    std::span<const uint32_t> coarse;  // of each vertex: the one of its cell
     WalkMedium medium;
     WalkGuide guide;
     Vec3 per_flat;  // one over what flat skin returns
@@ -145,7 +145,8 @@ struct Start {
     Vec3 p_mm, n;
 };
 
-// Of the surface over a point of the tangent plane, the part nearest to it that faces the same way.
+// Where a line along n through q_mm, a point of the tangent plane, meets skin that faces n; the nearest to
+// q_mm.
 std::optional<RayHit> nearest_on_surface(const RayScene& rays, Vec3 q_mm, Vec3 n, float reach_mm) {
     HitBuffer<16> buffer;
     const size_t count = rays.all_hits(

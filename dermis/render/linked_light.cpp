@@ -76,6 +76,17 @@ std::string buffer_name(size_t object, const std::string& stream) {
 
 }  // namespace
 
+Result<void> LinkedLight::check(const Scene& scene) {
+    // Vulkan requires 65,535 groups of every device.
+    constexpr size_t kMostVertices = size_t(65535) * kLinkBlock / kLinkLanes;
+    for (const SceneObject& object : scene.objects)
+        if (has_skin(object) && object.mesh.positions_mm.size() > kMostVertices)
+            return Error{"gain=links: " + object.name + " has " +
+                         std::to_string(object.mesh.positions_mm.size()) + " vertices, more than " +
+                         std::to_string(kMostVertices) + "; set gain=map or reduce the mesh"};
+    return {};
+}
+
 Result<LinkedLight> LinkedLight::upload(gpu::Device& device, const Scene& scene, const VertexLinks& links) {
     const DeviceLinks made = packed(links);
     std::vector<DeviceRow> of_vertices;

@@ -14,8 +14,11 @@ namespace dermis::inline render {
 
 class LinkedLight {
   public:
-    /// `links` are of the scene's objects. Memory: 8 bytes a link, 24 a vertex. Errors: the device, vertices
-    /// or links that an index cannot hold.
+    /// Before links are walked. Error: an object with more vertices than a dispatch has on every device.
+    [[nodiscard]] static Result<void> check(const Scene& scene);
+
+    /// `links` are of the scene's objects, which passed check(). Memory: 8 bytes a link, 20 a vertex. Errors:
+    /// the device.
     [[nodiscard]] static Result<LinkedLight> upload(gpu::Device& device, const Scene& scene,
                                                     const VertexLinks& links);
 

@@ -348,6 +348,7 @@ Result<void> Renderer::prepare_walked_gains() {
 Result<void> Renderer::prepare_linked_light(const SharedPassSettings& shared) {
     std::string key = "links " + walks_key(*scene_);
     if (key != linked_light_key_) {
+        DERMIS_TRY(LinkedLight::check(*scene_));
         DERMIS_TRY_ASSIGN(const VertexLinks links, walk_scene_links(*scene_, walked_profiles()));
         DERMIS_TRY_ASSIGN(linked_light_, LinkedLight::upload(*device_, *scene_, links));
         linked_light_key_ = std::move(key);

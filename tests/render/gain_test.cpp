@@ -161,4 +161,16 @@ TEST_F(Gains, of_links_light_the_dark_side_of_a_small_ball) {
     EXPECT_EQ(brightness("map"), dark) << "the gains are those of links still";
 }
 
+TEST_F(Gains, of_links_of_more_vertices_than_a_dispatch_has_are_refused_before_walks) {
+    Scene scene = ball_lit_from_behind(2);
+    Mesh& mesh = scene.objects[0].mesh;
+    mesh.positions_mm.resize(524'281);
+    const Result<void> checked = LinkedLight::check(scene);
+    ASSERT_FALSE(checked);
+    EXPECT_EQ(checked.error().message,
+              "gain=links: ball has 524281 vertices, more than 524280; set gain=map or reduce the mesh");
+    mesh.positions_mm.resize(524'280);
+    EXPECT_TRUE(LinkedLight::check(scene));
+}
+
 }  // namespace
