@@ -162,8 +162,7 @@ Triangles measure(const SceneObject& object) {
         const uint32_t material = material_of_triangle(mesh, t);
         triangles.skin[t] =
             material >= object.classes.size() || object.classes[material] == MaterialClass::skin;
-        const auto [a, b, c] = corners_mm(mesh, uint32_t(t));
-        triangles.area_mm2[t] = 0.5 * double(length(cross(b - a, c - a)));
+        triangles.area_mm2[t] = double(triangle_area_mm2(mesh, t));
     }
     return triangles;
 }
@@ -306,6 +305,15 @@ Result<std::vector<Flesh>> find_flesh(std::span<const SceneObject> objects, Cavi
         all.push_back(std::move(flesh));
     }
     return all;
+}
+
+std::vector<bool> walked_triangles(const SceneObject& object, const Flesh& flesh) {
+    std::vector<bool> walked(object.mesh.triangle_count());
+    for (uint32_t t = 0; t < walked.size(); ++t)
+        walked[t] = flesh.faces[t] == SkinFace::visible &&
+                    is_skin(object, material_of_triangle(object.mesh, t)) &&
+                    triangle_area_mm2(object.mesh, t) > 0;
+    return walked;
 }
 
 }  // namespace dermis::inline rays

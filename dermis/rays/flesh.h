@@ -44,4 +44,9 @@ enum class Cavities { flesh, open };
 [[nodiscard]] Result<std::vector<Flesh>> find_flesh(std::span<const SceneObject> objects,
                                                     Cavities cavities = Cavities::flesh);
 
+/// Where walks start: the visible triangles of skin that have an area.
+[[nodiscard]] std::vector<bool> walked_triangles(const SceneObject& object, const Flesh& flesh);
+/// The error where there are none, or none of the walks return.
+inline constexpr const char* kNoWalkedSkin = "there is no skin that returns light to the outside";
+
 }  // namespace dermis::inline rays

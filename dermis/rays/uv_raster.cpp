@@ -65,6 +65,11 @@ std::array<Vec3, 3> corners_mm(const Mesh& mesh, uint32_t triangle) {
     return {mesh.positions_mm[corner[0]], mesh.positions_mm[corner[1]], mesh.positions_mm[corner[2]]};
 }
 
+float triangle_area_mm2(const Mesh& mesh, uint32_t triangle) {
+    const auto [a, b, c] = corners_mm(mesh, triangle);
+    return 0.5f * length(cross(b - a, c - a));
+}
+
 Vec3 face_normal(const Mesh& mesh, uint32_t triangle) {
     const auto [a, b, c] = corners_mm(mesh, triangle);
     return normalize(cross(b - a, c - a));

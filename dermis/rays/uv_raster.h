@@ -46,6 +46,7 @@ using MaterialFilter = std::function<bool(const SceneObject& object, uint32_t ma
 [[nodiscard]] Image coverage_mask(const UvRaster& raster);
 
 [[nodiscard]] std::array<Vec3, 3> corners_mm(const Mesh& mesh, uint32_t triangle);
+[[nodiscard]] float triangle_area_mm2(const Mesh& mesh, uint32_t triangle);
 /// Geometric normal by winding; zero for a degenerate triangle.
 [[nodiscard]] Vec3 face_normal(const Mesh& mesh, uint32_t triangle);
 

@@ -67,24 +67,10 @@ std::vector<Vec3> gains_by_curvature(std::span<const CurvatureTensor> tensors, c
     return gains;
 }
 
-float area_mm2(const Mesh& mesh, size_t triangle) {
-    const auto [a, b, c] = corners_mm(mesh, uint32_t(triangle));
-    return 0.5f * length(cross(b - a, c - a));
-}
-
-std::vector<bool> walked_triangles(const SceneObject& object, const Flesh& flesh) {
-    std::vector<bool> walked(object.mesh.triangle_count());
-    for (size_t t = 0; t < walked.size(); ++t)
-        walked[t] = flesh.faces[t] == SkinFace::visible &&
-                    is_skin(object, material_of_triangle(object.mesh, uint32_t(t))) &&
-                    area_mm2(object.mesh, t) > 0;
-    return walked;
-}
-
 double walked_area_mm2(const Mesh& mesh, const std::vector<bool>& walked) {
     double area = 0;
     for (size_t t = 0; t < walked.size(); ++t)
-        if (walked[t]) area += double(area_mm2(mesh, t));
+        if (walked[t]) area += double(triangle_area_mm2(mesh, uint32_t(t)));
     return area;
 }
 
@@ -93,7 +79,7 @@ std::vector<uint32_t> walks_of(const Mesh& mesh, const std::vector<bool>& walked
     std::vector<uint32_t> walks(walked.size());
     for (size_t t = 0; t < walked.size(); ++t) {
         if (!walked[t]) continue;
-        const double wanted = double(area_mm2(mesh, t)) * per_mm2;
+        const double wanted = double(triangle_area_mm2(mesh, uint32_t(t))) * per_mm2;
         walks[t] = uint32_t(std::clamp(std::ceil(wanted), 1.0, kMostWalksPerTriangle));
     }
     return walks;
@@ -126,7 +112,7 @@ void walk_triangle(const WalkTask& task, size_t t, uint32_t seed, ObjectWalks& o
     const auto [a, b, c] = corners_mm(*object.mesh, uint32_t(t));
     const uint32_t* corner = &object.mesh->indices[3 * t];
     const Vec3 n = face_normal(*object.mesh, uint32_t(t));
-    const float share_mm2 = area_mm2(*object.mesh, t) / float(object.walks[t]);
+    const float share_mm2 = triangle_area_mm2(*object.mesh, uint32_t(t)) / float(object.walks[t]);
     const uint32_t first = hash_u32(seed, 1);
     for (uint32_t i = 0; i < object.walks[t]; ++i) {
         Pcg32 random(seed, i);
@@ -163,7 +149,7 @@ void walk_object(const WalkTask& task, uint32_t seed, ObjectWalks& object, Progr
 void add_squares(const ObjectWalks& object, std::span<const Vec3> noise, Vec3& squares, double& area) {
     for (size_t t = 0; t < object.walks.size(); ++t) {
         if (object.walks[t] == 0) continue;
-        const float a = area_mm2(*object.mesh, t);
+        const float a = triangle_area_mm2(*object.mesh, uint32_t(t));
         for (size_t k = 0; k < 3; ++k) {
             const Vec3 d = noise[object.mesh->indices[3 * t + k]];
             squares += d * d * (a / 3);
@@ -195,7 +181,7 @@ Result<std::vector<ObjectWalks>> planned(std::span<const SceneObject> objects, c
         walked.push_back(walked_triangles(objects[i], flesh[i]));
         area += walked_area_mm2(objects[i].mesh, walked.back());
     }
-    if (!(area > 0)) return Error{"there is no skin that returns light to the outside"};
+    if (!(area > 0)) return Error{kNoWalkedSkin};
     const double per_mm2 = std::max(double(settings.walks_per_mm2), settings.least_walks / area);
     std::vector<ObjectWalks> planned;
     for (size_t i = 0; i < objects.size(); ++i) {

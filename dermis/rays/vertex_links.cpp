@@ -47,11 +47,6 @@ struct LinkedObject {
     }
 };
 
-float triangle_mm2(const Mesh& mesh, uint32_t triangle) {
-    const auto [a, b, c] = corners_mm(mesh, triangle);
-    return 0.5f * length(cross(b - a, c - a));
-}
-
 struct LinkTask {
     const RayScene* rays;
     std::span<const LinkedObject> objects;
@@ -70,60 +65,53 @@ LinkedObject linked(const SceneObject& object, const Flesh& flesh, uint32_t firs
                       .weld = weld_positions(mesh.positions_mm),
                       .first_corner = {},
                       .corners = {}};
-    const auto walked = [&](size_t corner) {
-        const auto t = uint32_t(corner / 3);
-        return flesh.faces[t] == SkinFace::visible && is_skin(object, material_of_triangle(mesh, t)) &&
-               triangle_mm2(mesh, t) > 0;
-    };
+    const std::vector<bool> walked = walked_triangles(object, flesh);
     std::vector<uint32_t>& first = made.first_corner;
     first.resize(made.weld.count() + 1);
     for (size_t corner = 0; corner < mesh.indices.size(); ++corner)
-        if (walked(corner)) ++first[made.weld.ids[mesh.indices[corner]] + 1];
+        if (walked[corner / 3]) ++first[made.weld.ids[mesh.indices[corner]] + 1];
     for (size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
     made.corners.resize(first.back());
     std::vector<uint32_t> next(first.begin(), first.end() - 1);
     for (size_t corner = 0; corner < mesh.indices.size(); ++corner)
-        if (walked(corner)) made.corners[next[made.weld.ids[mesh.indices[corner]]]++] = uint32_t(corner);
+        if (walked[corner / 3]) made.corners[next[made.weld.ids[mesh.indices[corner]]]++] = uint32_t(corner);
     return made;
 }
 
 // Sums of weights by vertex.
 class Row {
   public:
+    explicit Row(size_t vertices) : slots_(vertices, kNone) {}
+    void add(uint32_t vertex, Vec3 weight) {
+        uint32_t& slot = slots_[vertex];
+        if (slot == kNone) {
+            slot = uint32_t(links_.size());
+            links_.push_back({vertex, weight});
+        } else {
+            links_[slot].weight += weight;
+        }
+    }
     void add(const LinkedObject& object, uint32_t triangle, const std::array<float, 3>& weights, Vec3 value) {
         for (size_t k = 0; k < 3; ++k) {
             const uint32_t id = object.weld.ids[object.mesh->indices[3 * triangle + k]];
-            links_.push_back({object.first_vertex + object.weld.first[id], value * weights[k]});
+            add(object.first_vertex + object.weld.first[id], value * weights[k]);
         }
-        if (links_.size() > limit_) merge();
     }
     void add(std::span<const VertexLink> links, Vec3 factor) {
-        for (const VertexLink& link : links) links_.push_back({link.vertex, link.weight * factor});
+        for (const VertexLink& link : links) add(link.vertex, link.weight * factor);
     }
-    void add(const Row& other, Vec3 factor) { add(other.links_, factor); }
-    /// A copy, as long as it needs to be: there is one for each vertex.
-    [[nodiscard]] std::vector<VertexLink> merged() {
-        merge();
-        return {links_.begin(), links_.end()};
+    /// All of it, as long as it needs to be: there is one for each vertex. Leaves nothing behind.
+    [[nodiscard]] std::vector<VertexLink> take() {
+        for (const VertexLink& link : links_) slots_[link.vertex] = kNone;
+        std::vector<VertexLink> taken(links_.begin(), links_.end());
+        links_.clear();
+        return taken;
     }
 
   private:
-    void merge() {
-        std::ranges::sort(links_, {}, &VertexLink::vertex);
-        size_t kept = 0;
-        for (const VertexLink link : links_) {
-            if (kept > 0 && links_[kept - 1].vertex == link.vertex)
-                links_[kept - 1].weight += link.weight;
-            else
-                links_[kept++] = link;
-        }
-        links_.resize(kept);
-        limit_ = std::max(kLeastLimit, 2 * kept);
-    }
-
-    static constexpr size_t kLeastLimit = 4096;
+    static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+    std::vector<uint32_t> slots_;  // of each vertex: its place among the links
     std::vector<VertexLink> links_;
-    size_t limit_ = kLeastLimit;
 };
 
 // A point of the triangle of a corner, with density falling from the corner to nothing at its edge: Dirichlet
@@ -209,14 +197,14 @@ float size_of(const VertexLink& link) {
 // The largest links; the others are added to the nearest of them.
 void keep_largest(std::span<const LinkedObject> objects, size_t most, std::vector<VertexLink>& links) {
     if (links.size() <= most) return;
-    std::ranges::sort(links, std::ranges::greater{}, size_of);
+    std::ranges::nth_element(links, links.begin() + ptrdiff_t(most), std::ranges::greater{}, size_of);
+    const std::span kept = std::span(links).first(most);
+    std::vector<Vec3> kept_mm;
+    for (const VertexLink& link : kept) kept_mm.push_back(place_mm(objects, link.vertex));
     for (const VertexLink& link : std::span(links).subspan(most)) {
         const Vec3 p_mm = place_mm(objects, link.vertex);
-        const auto far_mm = [&](const VertexLink& kept) {
-            return length(place_mm(objects, kept.vertex) - p_mm);
-        };
-        std::ranges::min_element(links.begin(), links.begin() + ptrdiff_t(most), {}, far_mm)->weight +=
-            link.weight;
+        const auto far_mm2 = [&](Vec3 q_mm) { return dot(q_mm - p_mm, q_mm - p_mm); };
+        kept[size_t(std::ranges::min_element(kept_mm, {}, far_mm2) - kept_mm.begin())].weight += link.weight;
     }
     links.resize(most);
 }
@@ -227,7 +215,7 @@ class Star {
     Star(const LinkedObject& object, uint32_t position)
         : mesh_(*object.mesh), corners_(object.around(position)) {
         for (const uint32_t corner : corners_)
-            sums_mm2_.push_back(area_mm2_ += triangle_mm2(mesh_, corner / 3));
+            sums_mm2_.push_back(area_mm2_ += triangle_area_mm2(mesh_, corner / 3));
     }
     [[nodiscard]] bool empty() const { return corners_.empty(); }
     [[nodiscard]] float area() const { return area_mm2_; }
@@ -249,12 +237,12 @@ class Star {
 // Walks and, in place of the light where they start, what the profile brings there; a colour that the profile
 // does not have stays.
 std::vector<VertexLink> links_of(const LinkTask& task, const LinkedObject& object, uint32_t position,
-                                 uint32_t seed) {
+                                 uint32_t seed, Row& walked, Row& blurred) {
     const Star star(object, position);
     if (star.empty()) return {};
     const int walks = std::max(task.settings.least_walks, int(star.area() / 3 * task.settings.walks_per_mm2));
     const float share = 1 / float(walks);
-    Row walked, blurred, started;
+    std::vector<Start> starts;
     Vec3 total;
     for (int i = 0; i < walks; ++i) {
         Pcg32 random(seed, uint32_t(i));
@@ -262,14 +250,14 @@ std::vector<VertexLink> links_of(const LinkTask& task, const LinkedObject& objec
         const Start start = star.draw(u, random);
         walk_from(task, object, start, golden_1d(hash_u32(seed, 1), uint32_t(i)), share, random, walked);
         total += probe(task, start, random, blurred);
-        started.add(object, start.triangle, start.weights, Vec3{share, share, share});
+        starts.push_back(start);
     }
     const auto inverse = [](float x) { return x > 0 ? 1 / x : 0.0f; };
     const Vec3 per_total = {inverse(total.x), inverse(total.y), inverse(total.z)};
     const Vec3 has = {float(total.x > 0), float(total.y > 0), float(total.z > 0)};
-    walked.add(blurred, per_total * -1.0f);
-    walked.add(started, has);
-    return walked.merged();
+    walked.add(blurred.take(), per_total * -1.0f);
+    for (const Start& start : starts) walked.add(object, start.triangle, start.weights, has * share);
+    return walked.take();
 }
 
 // The middle one of all vertices in a cell of a grid whose normals lie in one octant: so both sides of a thin
@@ -304,7 +292,7 @@ std::vector<uint32_t> coarse_vertices(std::span<const LinkedObject> objects, uin
 
 // Moves the links out of a row that end far from its vertex.
 std::vector<VertexLink> split_far(const LinkTask& task, const LinkedObject& object, uint32_t position,
-                                  std::vector<VertexLink>& row) {
+                                  std::vector<VertexLink>& row, Row& far) {
     const uint32_t v = object.weld.first[position];
     const Vec3 p_mm = object.mesh->positions_mm[v], n = object.mesh->normals[v];
     const auto is_near = [&](const VertexLink& link) {
@@ -312,11 +300,10 @@ std::vector<VertexLink> split_far(const LinkTask& task, const LinkedObject& obje
         return length(mesh->positions_mm[u] - p_mm) <= kNearMm && dot(mesh->normals[u], n) > 0;
     };
     const auto middle = std::partition(row.begin(), row.end(), is_near);
-    Row far;
     for (const VertexLink& link : std::span(middle, row.end()))
-        far.add(std::array{VertexLink{task.coarse[link.vertex], link.weight}}, Vec3{1, 1, 1});
+        far.add(task.coarse[link.vertex], link.weight);
     row.erase(middle, row.end());
-    return far.merged();
+    return far.take();
 }
 
 using Rows = std::vector<std::vector<VertexLink>>;
@@ -328,7 +315,7 @@ std::vector<std::pair<uint32_t, float>> shares_around(const LinkedObject& object
     float area = 0;
     for (const uint32_t corner : object.around(position)) {
         const uint32_t t = corner / 3;
-        const float own = triangle_mm2(mesh, t);
+        const float own = triangle_area_mm2(mesh, t);
         area += own;
         for (const uint32_t k : {1u, 2u}) {
             const uint32_t beside = object.weld.ids[mesh.indices[3 * t + (corner + k) % 3]];
@@ -343,45 +330,46 @@ std::vector<std::pair<uint32_t, float>> shares_around(const LinkedObject& object
     return shares;
 }
 
+// Calls change(position, row a, row b), in parallel, with rows that are empty.
+void for_rows(const LinkTask& task, size_t rows, const auto& change) {
+    parallel_for(rows, kRowsPerTask, [&](size_t begin, size_t end) {
+        Row a(task.coarse.size()), b(task.coarse.size());
+        for (size_t r = begin; r < end; ++r) change(uint32_t(r), a, b);
+    });
+}
+
 // Half of each row becomes the mean of those around it, by area.
-Rows smoothed(const LinkedObject& object, const Rows& rows) {
+Rows smoothed(const LinkTask& task, const LinkedObject& object, const Rows& rows) {
     Rows made(rows.size());
-    const auto smooth = [&](uint32_t r) {
+    for_rows(task, rows.size(), [&](uint32_t r, Row& row, Row&) {
         if (object.around(r).empty()) return;
-        Row row;
         row.add(rows[r], Vec3{0.5f, 0.5f, 0.5f});
         // What is not skin has no walks.
         for (const auto& [beside, share] : shares_around(object, r))
             row.add(rows[object.around(beside).empty() ? r : beside], Vec3{0.5f, 0.5f, 0.5f} * share);
-        made[r] = row.merged();
-    };
-    parallel_for(rows.size(), kRowsPerTask, [&](size_t begin, size_t end) {
-        for (size_t r = begin; r < end; ++r) smooth(uint32_t(r));
+        made[r] = row.take();
     });
     return made;
 }
 
 Rows rows_of(const LinkTask& task, const LinkedObject& object, uint32_t seed, Progress& progress) {
-    Rows rows(object.weld.count());
-    const auto for_rows = [&](const auto& change) {
-        parallel_for(rows.size(), kRowsPerTask, [&](size_t begin, size_t end) {
-            for (size_t r = begin; r < end; ++r) change(r);
-        });
-    };
-    for_rows([&](size_t r) {
-        rows[r] = links_of(task, object, uint32_t(r), hash_u32(seed, uint32_t(r)));
+    Rows rows(object.weld.count()), far(rows.size());
+    for_rows(task, rows.size(), [&](uint32_t r, Row& walked, Row& blurred) {
+        rows[r] = links_of(task, object, r, hash_u32(seed, r), walked, blurred);
         progress.advance();
     });
-    for (int i = 0; i < kSmoothings; ++i) rows = smoothed(object, rows);
-    Rows far(rows.size());
-    for_rows([&](size_t r) { far[r] = split_far(task, object, uint32_t(r), rows[r]); });
-    for (int i = 0; i < kFarSmoothings; ++i) far = smoothed(object, far);
+    for (int i = 0; i < kSmoothings; ++i) rows = smoothed(task, object, rows);
+    for_rows(task, rows.size(),
+             [&](uint32_t r, Row& own, Row&) { far[r] = split_far(task, object, r, rows[r], own); });
+    for (int i = 0; i < kFarSmoothings; ++i) far = smoothed(task, object, far);
     // Apart, or the light through thick parts, of many small links, would be taken to come from nearby.
-    for_rows([&](size_t r) {
-        const auto most = size_t(task.settings.most_links);
-        keep_largest(task.objects, std::max(most * 5 / 8, size_t(1)), rows[r]);
-        keep_largest(task.objects, most - rows[r].size(), far[r]);
-        rows[r].insert(rows[r].end(), far[r].begin(), far[r].end());
+    parallel_for(rows.size(), kRowsPerTask, [&](size_t begin, size_t end) {
+        for (size_t r = begin; r < end; ++r) {
+            const auto most = size_t(task.settings.most_links);
+            keep_largest(task.objects, std::max(most * 5 / 8, size_t(1)), rows[r]);
+            keep_largest(task.objects, most - rows[r].size(), far[r]);
+            rows[r].insert(rows[r].end(), far[r].begin(), far[r].end());
+        }
     });
     return rows;
 }
@@ -425,7 +413,7 @@ Result<VertexLinks> walk_links(std::span<const SceneObject> objects, const Scatt
     Progress progress("links by walks", total);
     for (size_t i = 0; i < all.size(); ++i)
         append(all[i], rows_of(task, all[i], hash_u32(uint32_t(i), 9), progress), made);
-    if (made.links.empty()) return Error{"there is no skin that returns light to the outside"};
+    if (made.links.empty()) return Error{kNoWalkedSkin};
     return made;
 }
 
@@ -447,7 +435,7 @@ Result<VertexLinks> walk_vertex_links(std::span<const SceneObject> objects, cons
                                       const GaussianSum& profile, const VertexLinkSettings& settings) {
     DERMIS_TRY(check_link_settings(settings));
     Hasher hasher;
-    hasher.add(std::string_view("links 6"));
+    hasher.add(std::string_view("links 7"));
     hasher.add(rays_version()).add(medium.g).add(medium.eta);
     for (size_t c = 0; c < 3; ++c) hasher.add(medium.sigma_s_per_mm[c]).add(medium.sigma_a_per_mm[c]);
     for (const GaussianTerm& term : profile.terms)

@@ -48,8 +48,8 @@ struct VertexLinks {
 /// vertices, and more where light comes through the body, from skin that faces away or is 8 mm away. Such
 /// skin has one vertex every 2 mm. At most five eighths of the links are near ones.
 ///
-/// Deterministic; cached by content. Cost: about a millisecond of one core a vertex. Errors: settings out of
-/// range, no skin, the ray library fails.
+/// `objects` have normals. Deterministic; cached by content. Cost: about a millisecond of one core a vertex.
+/// Errors: settings out of range, no skin, the ray library fails.
 [[nodiscard]] Result<VertexLinks> walk_vertex_links(std::span<const SceneObject> objects,
                                                     const ScatteringMedium& medium,
                                                     const GaussianSum& profile,

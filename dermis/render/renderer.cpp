@@ -335,10 +335,9 @@ Result<void> Renderer::prepare_gains(const SharedPassSettings& shared) {
 
 // Each vertex has the gain of its material's profile.
 Result<void> Renderer::prepare_walked_gains() {
-    std::string key = walks_key(*scene_);
+    std::string key = walks_key(*scene_, Gain::map);
     if (key == uploaded_->gains_key) return {};
-    DERMIS_TRY_ASSIGN(const std::vector<std::vector<Vec3>> gains,
-                      walk_scene_gains(*scene_, walked_profiles()));
+    DERMIS_TRY_ASSIGN(const std::vector<std::vector<Vec3>> gains, walk_scene_gains(*scene_));
     DERMIS_TRY(uploaded_->replace_gains(*device_, gains));
     uploaded_->gains_key = std::move(key);
     return {};
@@ -346,23 +345,16 @@ Result<void> Renderer::prepare_walked_gains() {
 
 // Its passes fill the stream of the gains.
 Result<void> Renderer::prepare_linked_light(const SharedPassSettings& shared) {
-    std::string key = "links " + walks_key(*scene_);
+    std::string key = walks_key(*scene_, Gain::links);
     if (key != linked_light_key_) {
         DERMIS_TRY(LinkedLight::check(*scene_));
-        DERMIS_TRY_ASSIGN(const VertexLinks links, walk_scene_links(*scene_, walked_profiles()));
+        DERMIS_TRY_ASSIGN(const VertexLinks links, walk_scene_links(*scene_));
         DERMIS_TRY_ASSIGN(linked_light_, LinkedLight::upload(*device_, *scene_, links));
         linked_light_key_ = std::move(key);
     }
     uploaded_->gains_key = linked_light_key_;
     linked_light_->add_passes(list_, shared);
     return {};
-}
-
-std::vector<WalkedProfile> Renderer::walked_profiles() const {
-    std::vector<WalkedProfile> profiles;
-    for (const ProfileState& state : profiles_)
-        profiles.push_back({walk_medium_of(state.skin.profile), state.skin.gaussians});
-    return profiles;
 }
 
 gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSettings& settings) const {

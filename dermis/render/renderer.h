@@ -11,7 +11,6 @@
 #include "dermis/render/scene_upload.h"
 #include "dermis/render/seam_textures.h"
 #include "dermis/render/shared_passes.h"
-#include "dermis/render/walked_scene.h"
 #include "dermis/scene/scene.h"
 #include "dermis/technique/technique.h"
 
@@ -123,7 +122,6 @@ class Renderer {
     Result<void> prepare_gains(const SharedPassSettings& shared);
     Result<void> prepare_walked_gains();
     Result<void> prepare_linked_light(const SharedPassSettings& shared);
-    [[nodiscard]] std::vector<WalkedProfile> walked_profiles() const;
 
     gpu::Device* device_;
     gpu::ShaderSource shaders_;

@@ -1,6 +1,9 @@
 #include "dermis/render/walked_scene.h"
 
 #include "dermis/base/hash.h"
+#include "dermis/optics/conversions.h"
+#include "dermis/optics/gaussian_fit.h"
+#include "dermis/optics/presets.h"
 #include "dermis/rays/vertex_gain.h"
 #include "dermis/scene/skin_profiles.h"
 
@@ -27,8 +30,9 @@ void for_vertices_of(const Scene& scene, size_t profile, const Take& take) {
 
 }  // namespace
 
-std::string walks_key(const Scene& scene) {
+std::string walks_key(const Scene& scene, Gain gain) {
     Hasher hasher;
+    hasher.add(gain);
     const std::vector<std::string> names = skin_profiles(scene);
     for (const std::string& name : names) hasher.add(name);
     for (const SceneObject& object : scene.objects) {
@@ -39,11 +43,13 @@ std::string walks_key(const Scene& scene) {
     return hasher.hex();
 }
 
-Result<std::vector<std::vector<Vec3>>> walk_scene_gains(const Scene& scene,
-                                                        std::span<const WalkedProfile> profiles) {
+Result<std::vector<std::vector<Vec3>>> walk_scene_gains(const Scene& scene) {
     std::vector<std::vector<Vec3>> gains;
+    const std::vector<std::string> profiles = skin_profiles(scene);
     for (size_t p = 0; p < profiles.size(); ++p) {
-        DERMIS_TRY_ASSIGN(VertexGains walked, walk_vertex_gains(walked_objects(scene), profiles[p].medium));
+        DERMIS_TRY_ASSIGN(const Profile profile, find_profile(profiles[p]));
+        DERMIS_TRY_ASSIGN(VertexGains walked,
+                          walk_vertex_gains(walked_objects(scene), walk_medium_of(profile)));
         if (p == 0) {
             gains = std::move(walked.gains);
             continue;
@@ -53,11 +59,14 @@ Result<std::vector<std::vector<Vec3>>> walk_scene_gains(const Scene& scene,
     return gains;
 }
 
-Result<VertexLinks> walk_scene_links(const Scene& scene, std::span<const WalkedProfile> profiles) {
+Result<VertexLinks> walk_scene_links(const Scene& scene) {
     VertexLinks links;
+    const std::vector<std::string> profiles = skin_profiles(scene);
     for (size_t p = 0; p < profiles.size(); ++p) {
-        DERMIS_TRY_ASSIGN(VertexLinks walked, walk_vertex_links(walked_objects(scene), profiles[p].medium,
-                                                                profiles[p].gaussians));
+        DERMIS_TRY_ASSIGN(const Profile profile, find_profile(profiles[p]));
+        DERMIS_TRY_ASSIGN(
+            VertexLinks walked,
+            walk_vertex_links(walked_objects(scene), walk_medium_of(profile), to_gaussian_sum(profile).sum));
         if (p == 0) {
             links = std::move(walked);
             continue;

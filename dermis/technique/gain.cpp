@@ -1,6 +1,7 @@
 #include "dermis/technique/gain.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "dermis/technique/transmission.h"
 
@@ -20,9 +21,18 @@ void use_gain(Pass& pass, Gain gain) {
     if (transmission != pass.constants.end()) transmission->second = kTransmissionNone;
 }
 
-ParameterValues without_gain(ParameterValues values) {
-    if (const Parameter* gain = values.table().find("gain")) values.put(*gain, {double(Gain::none), 0, 0});
+Gain gain_of(const ParameterValues& values) {
+    const Parameter* gain = values.table().find("gain");
+    return gain ? Gain(int32_t(values.get(*gain)[0])) : Gain::none;
+}
+
+ParameterValues with_gain(ParameterValues values, Gain gain) {
+    if (const Parameter* own = values.table().find("gain")) values.put(*own, {double(gain), 0, 0});
     return values;
+}
+
+ParameterValues without_gain(ParameterValues values) {
+    return with_gain(std::move(values), Gain::none);
 }
 
 }  // namespace dermis::inline technique

@@ -31,7 +31,10 @@ inline constexpr const char* kGainConstant = "gain";
 /// After read_transmission(), which links replace.
 void use_gain(Pass& pass, Gain gain);
 
-/// The values with gain=none, where they have it: the technique's part that the profile describes.
+/// Gain::none where the values have no such parameter; they stay as they are there.
+[[nodiscard]] Gain gain_of(const ParameterValues& values);
+[[nodiscard]] ParameterValues with_gain(ParameterValues values, Gain gain);
+/// With gain=none: the technique's part that the profile describes.
 [[nodiscard]] ParameterValues without_gain(ParameterValues values);
 
 }  // namespace dermis::inline technique

@@ -68,8 +68,8 @@ PictureSize Parts::picture_size() const {
 }
 
 bool Parts::is_settled() const {
-    return has_final_pictures() && !opener.is_loading() && !opener.has_new_words() &&
-           !reference.is_making() && !model.playing && !resting_pose.is_due(pictures.scene());
+    return has_final_pictures() && !opener.is_loading() && !opener.has_new_words() && !is_working() &&
+           !model.playing && !resting_pose.is_due(pictures.scene());
 }
 
 }  // namespace dermis::view

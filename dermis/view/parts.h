@@ -49,6 +49,8 @@ struct Parts {
     [[nodiscard]] Region picture_area() const;
     [[nodiscard]] PictureSize picture_size() const;
     [[nodiscard]] bool has_final_pictures() const { return pictures.are_final(model, reference.texture()); }
+    /// Something is computed in the background, to which the window leaves the processor.
+    [[nodiscard]] bool is_working() const { return reference.is_making() || pictures.are_walking(); }
     /// They are final, and nothing is on its way that would change them.
     [[nodiscard]] bool is_settled() const;
 };

@@ -1,5 +1,7 @@
 #include "dermis/view/pictures.h"
 
+#include "dermis/base/progress.h"
+
 namespace dermis::view {
 namespace {
 
@@ -39,6 +41,7 @@ void Pictures::refresh(Model& model, const gpu::Texture* reference, PictureSize 
     drew_ = false;
     if (!scene_.is_there()) return;
     scene_.follow_skin();
+    scene_.stage().take_walks();
     if (const Result<void> moved = scene_.follow_motion(); !moved)
         model.notices.report_error("motion", moved.error().message);
     for (size_t side = 0; side < drawn_sides(model, reference); ++side) {
@@ -58,6 +61,15 @@ void Pictures::refresh(Model& model, const gpu::Texture* reference, PictureSize 
         shaders_unproven_ = false;
         drew_ = true;
     }
+    report_walks(drawn_sides(model, reference), model.notices, now_s);
+}
+
+void Pictures::report_walks(size_t sides, Notices& notices, double now_s) const {
+    const Stage& stage = scene_.stage();
+    const bool lacks = stage.lacks_walks(0) || (sides == 2 && stage.lacks_walks(1));
+    if (!stage.is_walking() || !lacks) return notices.clear("walks");
+    const std::string progress = current_progress();
+    notices.inform("walks", (progress.empty() ? "walks" : progress) + "; until then gain=curvature", now_s);
 }
 
 ShownPictures Pictures::shown(const Model& model, const gpu::Texture* reference) const {

@@ -36,6 +36,9 @@ class Pictures {
     void refresh(Model& model, const gpu::Texture* reference, PictureSize size, double now_s);
     [[nodiscard]] ShownPictures shown(const Model& model, const gpu::Texture* reference) const;
 
+    /// Walks are on their way to a picture, or to an earlier one.
+    [[nodiscard]] bool are_walking() const { return scene_.is_there() && scene_.stage().is_walking(); }
+
     /// True if the pictures have their full quality and the last refresh drew nothing.
     [[nodiscard]] bool are_final(const Model& model, const gpu::Texture* reference) const;
     /// The next refresh is awaited before they count as final.
@@ -47,6 +50,8 @@ class Pictures {
     void describe(PanelFacts& facts) const;
 
   private:
+    void report_walks(size_t sides, Notices& notices, double now_s) const;
+
     HotShaders shaders_;  // outlives the scene's renderers
     ShownScene scene_;
     PictureTimes times_;

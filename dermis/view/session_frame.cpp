@@ -56,8 +56,7 @@ std::vector<Event> gather_events(Parts& p) {
     if (only_loads(p)) return p.input.gather(p.window, kShortSleepS);
     const bool busy = p.input.is_awake() || p.opener.is_loading() || p.player.has_script() ||
                       !p.has_final_pictures() || p.options.frames > 0 || p.input.has_waiting();
-    // While a reference is computed, the window leaves the processor to it.
-    return p.input.gather(p.window, busy ? 0 : p.reference.is_making() ? kShortSleepS : kSleepS);
+    return p.input.gather(p.window, busy ? 0 : p.is_working() ? kShortSleepS : kSleepS);
 }
 
 // No event and no work in progress: a new frame would be the same as the last.

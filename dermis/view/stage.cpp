@@ -54,6 +54,10 @@ QualityLimits Stage::limits() const {
     return limits;
 }
 
+void Stage::take_walks() {
+    if (walks_.take()) invalidate();
+}
+
 Result<bool> Stage::refresh(Model& model, size_t choice, PictureSize size, double now_s) {
     Side& side = sides_[choice];
     const std::string key =
@@ -73,8 +77,10 @@ Result<bool> Stage::refresh(Model& model, size_t choice, PictureSize size, doubl
     if (lacks_bakes()) draw.view = "final";
     fit_depth_range(scene_->camera, scene_->bounds_center_mm, scene_->bounds_radius_mm);
     const Technique& technique = lacks_bakes() ? *baseline_ : model.choices[choice].technique();
-    const ParameterValues chosen =
+    ParameterValues chosen =
         lacks_bakes() ? ParameterValues(technique.parameters) : model.choices[choice].values();
+    side.lacks_walks = !lacks_bakes() && !walks_.have(*scene_, gain_of(chosen));
+    if (side.lacks_walks) chosen = with_gain(std::move(chosen), Gain::curvature);
     const bool coarse = quality->scale < 1 && technique.coarse;
     const Result<uint64_t> frame =
         drawer->submit(technique, coarse ? technique.coarse(chosen, quality->scale) : chosen, draw);
@@ -125,6 +131,7 @@ Result<void> Stage::write(Model& model, size_t choice, PictureSize size, const s
     DERMIS_TRY_ASSIGN(Renderer* const drawer, renderer(choice));
     const DrawSettings draw = settings(model, size, {.samples = limits_.samples});
     TechniqueChoice& chosen = model.choices[choice];
+    walks_.wait();
     fit_depth_range(scene_->camera, scene_->bounds_center_mm, scene_->bounds_radius_mm);
     DERMIS_TRY(drawer->draw(chosen.technique(), chosen.values(), draw));
     return write_output(*drawer, chosen.technique(), chosen.values(), draw, path, output);
@@ -160,6 +167,7 @@ Result<void> Stage::vertices_moved() {
 
 Result<void> Stage::replace_objects(Scene loaded) {
     invalidate();
+    walks_.forget();
     baseline_ = nullptr;
     scene_->objects = std::move(loaded.objects);
     scene_->rest_objects = std::move(loaded.rest_objects);

@@ -8,6 +8,7 @@
 
 #include "dermis/render/output.h"
 #include "dermis/render/renderer.h"
+#include "dermis/view/background_walks.h"
 #include "dermis/view/model.h"
 #include "dermis/view/quality.h"
 
@@ -41,6 +42,13 @@ class Stage {
     void await_bakes(const Technique& baseline) { baseline_ = &baseline; }
     [[nodiscard]] bool lacks_bakes() const { return baseline_ != nullptr; }
 
+    /// Takes what was walked in the background for gain=map and gain=links: the next refresh draws with it;
+    /// before, pictures have gain=curvature.
+    void take_walks();
+    [[nodiscard]] bool is_walking() const { return walks_.are_walking(); }
+    /// Whether the side's picture lacks what is walked.
+    [[nodiscard]] bool lacks_walks(size_t choice) const { return sides_[choice].lacks_walks; }
+
     /// Draws the side `choice` if it is due. True when it drew. An error leaves the last picture standing,
     /// and comes once: the next attempt waits for a change.
     [[nodiscard]] Result<bool> refresh(Model& model, size_t choice, PictureSize size, double now_s);
@@ -53,7 +61,7 @@ class Stage {
     [[nodiscard]] const Picture& picture(size_t choice) const { return sides_[choice].picture; }
     [[nodiscard]] bool is_final(size_t choice) const;
 
-    /// Draws once more, whole and with all samples, and writes it (.png or .exr).
+    /// Draws once more, whole, with all samples and what is walked, and writes it (.png or .exr).
     [[nodiscard]] Result<void> write(Model& model, size_t choice, PictureSize size,
                                      const std::filesystem::path& path);
 
@@ -91,6 +99,7 @@ class Stage {
         Picture picture;
         std::vector<Drawing> in_flight;  ///< oldest first
         bool failed = false;             ///< with this key
+        bool lacks_walks = false;
     };
 
     Stage() = default;
@@ -104,6 +113,7 @@ class Stage {
     std::array<Side, 2> sides_;
     QualityLimits limits_;
     const Technique* baseline_ = nullptr;  ///< drawn while the bakes are missing
+    BackgroundWalks walks_;
 };
 
 }  // namespace dermis::view
