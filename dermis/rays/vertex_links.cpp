@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <utility>
 
@@ -12,14 +11,13 @@
 #include "dermis/base/parallel.h"
 #include "dermis/base/progress.h"
 #include "dermis/base/text.h"
-#include "dermis/mesh/topology.h"
 #include "dermis/rays/flesh_boundary.h"
 #include "dermis/rays/gaussian_probe.h"
 #include "dermis/rays/guided_walk.h"
+#include "dermis/rays/linked_object.h"
 #include "dermis/rays/random.h"
 #include "dermis/rays/rays_version.h"
 #include "dermis/rays/sampling.h"
-#include "dermis/rays/uv_raster.h"
 #include "dermis/scene/scene_hash.h"
 
 namespace dermis::inline rays {
@@ -31,21 +29,11 @@ constexpr int kSmoothings = 2, kFarSmoothings = 2;
 // Farther, or on skin that faces away, light comes through the body: few walks bring it, and it changes
 // slowly.
 constexpr float kNearMm = 8;
-constexpr float kFarSpacingMm = 2;    // side of a cell whose light one vertex has
 constexpr float kLeastCosine = 0.1f;  // of a surface to the ray that finds it
-
-// Of one object: its vertices by position, and the visible triangles of skin around each.
-struct LinkedObject {
-    const Mesh* mesh = nullptr;
-    uint32_t first_vertex = 0;  // over all objects
-    Weld weld;
-    std::vector<uint32_t> first_corner, corners;  // of each position: corners (3 triangle + k) around it
-
-    [[nodiscard]] std::span<const uint32_t> around(uint32_t position) const {
-        return std::span(corners).subspan(first_corner[position],
-                                          first_corner[position + 1] - first_corner[position]);
-    }
-};
+// Of the absolute weights of a row, summed over the channels: what may be merged into other links. Where one
+// side is lit and the other is dark, a merged link brings the wrong light, and neighbours differ.
+constexpr float kMergedNear = 0.2f, kMergedFar = 0.06f;
+constexpr size_t kLeastNear = 8, kLeastFar = 4;
 
 struct LinkTask {
     const RayScene* rays;
@@ -57,26 +45,6 @@ struct LinkTask {
     const GaussianSum* profile;
     VertexLinkSettings settings;
 };
-
-LinkedObject linked(const SceneObject& object, const Flesh& flesh, uint32_t first_vertex) {
-    const Mesh& mesh = object.mesh;
-    LinkedObject made{.mesh = &mesh,
-                      .first_vertex = first_vertex,
-                      .weld = weld_positions(mesh.positions_mm),
-                      .first_corner = {},
-                      .corners = {}};
-    const std::vector<bool> walked = walked_triangles(object, flesh);
-    std::vector<uint32_t>& first = made.first_corner;
-    first.resize(made.weld.count() + 1);
-    for (size_t corner = 0; corner < mesh.indices.size(); ++corner)
-        if (walked[corner / 3]) ++first[made.weld.ids[mesh.indices[corner]] + 1];
-    for (size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
-    made.corners.resize(first.back());
-    std::vector<uint32_t> next(first.begin(), first.end() - 1);
-    for (size_t corner = 0; corner < mesh.indices.size(); ++corner)
-        if (walked[corner / 3]) made.corners[next[made.weld.ids[mesh.indices[corner]]]++] = uint32_t(corner);
-    return made;
-}
 
 // Sums of weights by vertex.
 class Row {
@@ -114,25 +82,6 @@ class Row {
     std::vector<VertexLink> links_;
 };
 
-// A point of the triangle of a corner, with density falling from the corner to nothing at its edge: Dirichlet
-// (2, 1, 1), by gamma variates.
-std::array<float, 3> weights_near(uint32_t corner, Pcg32& random) {
-    const auto exponential = [&] { return -std::log(std::max(1 - random.next_1d(), 1e-7f)); };
-    const float own = exponential() + exponential(), b = exponential(), c = exponential();
-    const float per_sum = 1 / (own + b + c);
-    std::array<float, 3> weights;
-    weights[corner % 3] = own * per_sum;
-    weights[(corner + 1) % 3] = b * per_sum;
-    weights[(corner + 2) % 3] = c * per_sum;
-    return weights;
-}
-
-struct Start {
-    uint32_t triangle;
-    std::array<float, 3> weights;
-    Vec3 p_mm, n;
-};
-
 // Where a line along n through q_mm, a point of the tangent plane, meets skin that faces n; the nearest to
 // q_mm.
 std::optional<RayHit> nearest_on_surface(const RayScene& rays, Vec3 q_mm, Vec3 n, float reach_mm) {
@@ -149,8 +98,12 @@ std::optional<RayHit> nearest_on_surface(const RayScene& rays, Vec3 q_mm, Vec3 n
     return best;
 }
 
+float inverse(float x) {
+    return x > 0 ? 1 / x : 0.0f;
+}
+
 // Adds what the profile brings from one point; returns its weights, by which the row is normalised.
-Vec3 probe(const LinkTask& task, const Start& start, Pcg32& random, Row& row) {
+Vec3 probe(const LinkTask& task, const LinkStart& start, Pcg32& random, Row& row) {
     const float r_mm = sample_probe_radius_mm(*task.profile, random),
                 angle = 2 * std::numbers::pi_v<float> * random.next_1d();
     const LocalFrame frame = frame_of(start.n);
@@ -166,128 +119,47 @@ Vec3 probe(const LinkTask& task, const Start& start, Pcg32& random, Row& row) {
     return value;
 }
 
-void walk_from(const LinkTask& task, const LinkedObject& object, const Start& start, float lead, float share,
-               Pcg32& random, Row& row) {
+void add_end(const LinkTask& task, const RayHit& last, Vec3 value, Row& row) {
+    if (value != Vec3{} && last.object != kCapObject)
+        row.add(task.objects[last.object], last.triangle, {1 - last.u - last.v, last.u, last.v}, value);
+}
+
+void walk_from(const LinkTask& task, const LinkedObject& object, const LinkStart& start, float lead,
+               float share, Pcg32& random, Row& row) {
     FleshBoundary boundary(*task.rays);
     const Vec3 direction = sample_entry_direction(start.n, task.medium.eta, random);
     const auto [end, flat] =
         guided_walk_and_flat(task.medium, task.guide, boundary, start.p_mm, start.n, direction, lead, random);
-    const RayHit& last = boundary.last();
-    if (end.throughput != Vec3{} && last.object != kCapObject)
-        row.add(task.objects[last.object], last.triangle, {1 - last.u - last.v, last.u, last.v},
-                end.throughput * task.per_flat * share);
+    add_end(task, boundary.last(), end.throughput * task.per_flat * share, row);
     row.add(object, start.triangle, start.weights, flat.throughput * task.per_flat * -share);
-}
-
-std::pair<const Mesh*, uint32_t> vertex_of(std::span<const LinkedObject> objects, uint32_t vertex) {
-    size_t i = objects.size() - 1;
-    while (vertex < objects[i].first_vertex) --i;
-    return {objects[i].mesh, vertex - objects[i].first_vertex};
-}
-
-Vec3 place_mm(std::span<const LinkedObject> objects, uint32_t vertex) {
-    const auto [mesh, v] = vertex_of(objects, vertex);
-    return mesh->positions_mm[v];
 }
 
 float size_of(const VertexLink& link) {
     return std::abs(link.weight.x) + std::abs(link.weight.y) + std::abs(link.weight.z);
 }
 
-// The largest links; the others are added to the nearest of them.
-void keep_largest(std::span<const LinkedObject> objects, size_t most, std::vector<VertexLink>& links) {
-    if (links.size() <= most) return;
-    std::ranges::nth_element(links, links.begin() + ptrdiff_t(most), std::ranges::greater{}, size_of);
-    const std::span kept = std::span(links).first(most);
-    std::vector<Vec3> kept_mm;
-    for (const VertexLink& link : kept) kept_mm.push_back(place_mm(objects, link.vertex));
-    for (const VertexLink& link : std::span(links).subspan(most)) {
-        const Vec3 p_mm = place_mm(objects, link.vertex);
-        const auto far_mm2 = [&](Vec3 q_mm) { return dot(q_mm - p_mm, q_mm - p_mm); };
-        kept[size_t(std::ranges::min_element(kept_mm, {}, far_mm2) - kept_mm.begin())].weight += link.weight;
-    }
-    links.resize(most);
-}
-
-// The corners around a position, to be drawn by area.
-class Star {
-  public:
-    Star(const LinkedObject& object, uint32_t position)
-        : mesh_(*object.mesh), corners_(object.around(position)) {
-        for (const uint32_t corner : corners_)
-            sums_mm2_.push_back(area_mm2_ += triangle_area_mm2(mesh_, corner / 3));
-    }
-    [[nodiscard]] bool empty() const { return corners_.empty(); }
-    [[nodiscard]] float area() const { return area_mm2_; }
-    [[nodiscard]] Start draw(float u, Pcg32& random) const {
-        const auto found = std::ranges::upper_bound(sums_mm2_, u * area_mm2_) - sums_mm2_.begin();
-        const uint32_t corner = corners_[std::min(size_t(found), corners_.size() - 1)], triangle = corner / 3;
-        const auto [a, b, c] = corners_mm(mesh_, triangle);
-        const auto w = weights_near(corner, random);
-        return {triangle, w, a * w[0] + b * w[1] + c * w[2], face_normal(mesh_, triangle)};
-    }
-
-  private:
-    const Mesh& mesh_;
-    std::span<const uint32_t> corners_;
-    std::vector<float> sums_mm2_;
-    float area_mm2_ = 0;
+struct Kept {
+    size_t least, most;
+    float merged;  // of the absolute weights, beyond `least`
 };
 
-// Walks and, in place of the light where they start, what the profile brings there; a colour that the profile
-// does not have stays.
-std::vector<VertexLink> links_of(const LinkTask& task, const LinkedObject& object, uint32_t position,
-                                 uint32_t seed, Row& walked, Row& blurred) {
-    const Star star(object, position);
-    if (star.empty()) return {};
-    const int walks = std::max(task.settings.least_walks, int(star.area() / 3 * task.settings.walks_per_mm2));
-    const float share = 1 / float(walks);
-    std::vector<Start> starts;
-    Vec3 total;
-    for (int i = 0; i < walks; ++i) {
-        Pcg32 random(seed, uint32_t(i));
-        const float u = (float(i) + random.next_1d()) * share;
-        const Start start = star.draw(u, random);
-        walk_from(task, object, start, golden_1d(hash_u32(seed, 1), uint32_t(i)), share, random, walked);
-        total += probe(task, start, random, blurred);
-        starts.push_back(start);
+// The largest links; the others are added to the nearest of them.
+void keep_largest(std::span<const LinkedObject> objects, const Kept& kept, std::vector<VertexLink>& links) {
+    std::ranges::sort(links, std::ranges::greater{}, size_of);
+    size_t count = links.size();
+    for (float merged = 0; count > kept.least && (merged += size_of(links[count - 1])) <= kept.merged;)
+        --count;
+    count = std::min(count, kept.most);
+    std::vector<Vec3> places_mm;
+    for (const VertexLink& link : std::span(links).first(count))
+        places_mm.push_back(place_mm(objects, link.vertex));
+    for (const VertexLink& link : std::span(links).subspan(count)) {
+        const Vec3 p_mm = place_mm(objects, link.vertex);
+        const auto far_mm2 = [&](Vec3 q_mm) { return dot(q_mm - p_mm, q_mm - p_mm); };
+        links[size_t(std::ranges::min_element(places_mm, {}, far_mm2) - places_mm.begin())].weight +=
+            link.weight;
     }
-    const auto inverse = [](float x) { return x > 0 ? 1 / x : 0.0f; };
-    const Vec3 per_total = {inverse(total.x), inverse(total.y), inverse(total.z)};
-    const Vec3 has = {float(total.x > 0), float(total.y > 0), float(total.z > 0)};
-    walked.add(blurred.take(), per_total * -1.0f);
-    for (const Start& start : starts) walked.add(object, start.triangle, start.weights, has * share);
-    return walked.take();
-}
-
-// The middle one of all vertices in a cell of a grid whose normals lie in one octant: so both sides of a thin
-// part have their own.
-std::vector<uint32_t> coarse_vertices(std::span<const LinkedObject> objects, uint32_t vertices) {
-    struct Cell {
-        Vec3 sum_mm;
-        float count = 0;
-        uint32_t middle = 0;
-        float off_mm = std::numeric_limits<float>::max();
-    };
-    std::map<std::array<int, 4>, Cell> cells;
-    std::vector<Cell*> of_vertices(vertices);
-    for (const LinkedObject& object : objects)
-        for (uint32_t v = 0; v < object.mesh->positions_mm.size(); ++v) {
-            const Vec3 p_mm = object.mesh->positions_mm[v], n = object.mesh->normals[v];
-            const auto along = [](float x_mm) { return int(std::floor(x_mm / kFarSpacingMm)); };
-            const int octant = int(n.x > 0) | int(n.y > 0) << 1 | int(n.z > 0) << 2;
-            Cell& cell = cells[{along(p_mm.x), along(p_mm.y), along(p_mm.z), octant}];
-            cell.sum_mm += p_mm, ++cell.count;
-            of_vertices[object.first_vertex + v] = &cell;
-        }
-    for (uint32_t v = 0; v < vertices; ++v) {
-        Cell& cell = *of_vertices[v];
-        const float off_mm = length(place_mm(objects, v) - cell.sum_mm * (1 / cell.count));
-        if (off_mm < cell.off_mm) cell.off_mm = off_mm, cell.middle = v;
-    }
-    std::vector<uint32_t> coarse(vertices);
-    for (uint32_t v = 0; v < vertices; ++v) coarse[v] = of_vertices[v]->middle;
-    return coarse;
+    links.resize(count);
 }
 
 // Moves the links out of a row that end far from its vertex.
@@ -306,29 +178,33 @@ std::vector<VertexLink> split_far(const LinkTask& task, const LinkedObject& obje
     return far.take();
 }
 
-using Rows = std::vector<std::vector<VertexLink>>;
-
-// The positions around one and their shares of the area, each once.
-std::vector<std::pair<uint32_t, float>> shares_around(const LinkedObject& object, uint32_t position) {
-    const Mesh& mesh = *object.mesh;
-    std::vector<std::pair<uint32_t, float>> shares;
-    float area = 0;
-    for (const uint32_t corner : object.around(position)) {
-        const uint32_t t = corner / 3;
-        const float own = triangle_area_mm2(mesh, t);
-        area += own;
-        for (const uint32_t k : {1u, 2u}) {
-            const uint32_t beside = object.weld.ids[mesh.indices[3 * t + (corner + k) % 3]];
-            const auto known = std::ranges::find(shares, beside, &std::pair<uint32_t, float>::first);
-            if (known == shares.end())
-                shares.emplace_back(beside, own / 2);
-            else
-                known->second += own / 2;
-        }
+// Walks and, in place of the light where they start, what the profile brings there; a colour that the profile
+// does not have stays.
+std::vector<VertexLink> links_of(const LinkTask& task, const LinkedObject& object, uint32_t position,
+                                 uint32_t seed, Row& walked, Row& blurred) {
+    const Star star(object, position);
+    if (star.empty()) return {};
+    const int walks =
+        std::max(task.settings.least_walks, int(star.area_mm2() / 3 * task.settings.walks_per_mm2));
+    const float share = 1 / float(walks);
+    std::vector<LinkStart> starts;
+    Vec3 total;
+    for (int i = 0; i < walks; ++i) {
+        Pcg32 random(seed, uint32_t(i));
+        const float u = (float(i) + random.next_1d()) * share;
+        const LinkStart start = star.draw(u, random);
+        walk_from(task, object, start, golden_1d(hash_u32(seed, 1), uint32_t(i)), share, random, walked);
+        total += probe(task, start, random, blurred);
+        starts.push_back(start);
     }
-    for (auto& [beside, share] : shares) share /= area;
-    return shares;
+    const Vec3 per_total = {inverse(total.x), inverse(total.y), inverse(total.z)};
+    walked.add(blurred.take(), per_total * -1.0f);
+    for (const LinkStart& start : starts)
+        walked.add(object, start.triangle, start.weights, total * per_total * share);
+    return walked.take();
 }
+
+using Rows = std::vector<std::vector<VertexLink>>;
 
 // Calls change(position, row a, row b), in parallel, with rows that are empty.
 void for_rows(const LinkTask& task, size_t rows, const auto& change) {
@@ -365,9 +241,10 @@ Rows rows_of(const LinkTask& task, const LinkedObject& object, uint32_t seed, Pr
     // Apart, or the light through thick parts, of many small links, would be taken to come from nearby.
     parallel_for(rows.size(), kRowsPerTask, [&](size_t begin, size_t end) {
         for (size_t r = begin; r < end; ++r) {
-            const auto most = size_t(task.settings.most_links);
-            keep_largest(task.objects, std::max(most * 5 / 8, size_t(1)), rows[r]);
-            keep_largest(task.objects, most - rows[r].size(), far[r]);
+            const auto most = size_t(task.settings.most_links),
+                       most_near = std::max(most * 5 / 12, size_t(1));
+            keep_largest(task.objects, {kLeastNear, most_near, kMergedNear}, rows[r]);
+            keep_largest(task.objects, {kLeastFar, most - most_near, kMergedFar}, far[r]);
             rows[r].insert(rows[r].end(), far[r].begin(), far[r].end());
         }
     });
@@ -394,13 +271,12 @@ Result<VertexLinks> walk_links(std::span<const SceneObject> objects, const Scatt
     uint32_t vertices = 0;
     size_t total = 0;
     for (size_t i = 0; i < objects.size(); ++i) {
-        all.push_back(linked(objects[i], flesh[i], vertices));
+        all.push_back(linked_object(objects[i], flesh[i], vertices));
         vertices += uint32_t(objects[i].mesh.positions_mm.size());
         total += all.back().weld.count();
     }
     const std::vector<uint32_t> coarse = coarse_vertices(all, vertices);
     const Vec3 flat = guided_half_space_albedo(medium, kFlatLinkWalks, 1).mean;
-    const auto inverse = [](float x) { return x > 0 ? 1 / x : 0.0f; };
     const LinkTask task = {.rays = &rays,
                            .objects = all,
                            .coarse = coarse,
@@ -435,7 +311,7 @@ Result<VertexLinks> walk_vertex_links(std::span<const SceneObject> objects, cons
                                       const GaussianSum& profile, const VertexLinkSettings& settings) {
     DERMIS_TRY(check_link_settings(settings));
     Hasher hasher;
-    hasher.add(std::string_view("links 7"));
+    hasher.add(std::string_view("links 13"));
     hasher.add(rays_version()).add(medium.g).add(medium.eta);
     for (size_t c = 0; c < 3; ++c) hasher.add(medium.sigma_s_per_mm[c]).add(medium.sigma_a_per_mm[c]);
     for (const GaussianTerm& term : profile.terms)

@@ -23,7 +23,7 @@ namespace dermis::inline rays {
 struct VertexLinkSettings {
     float walks_per_mm2 = 64;  ///< 0.1..10000
     int least_walks = 128;     ///< of a vertex, 1..1000000
-    int most_links = 32;       ///< of a vertex, 2..1024; the rest is added to the nearest of them
+    int most_links = 96;       ///< of a vertex, 2..1024
 };
 
 struct VertexLink {
@@ -46,7 +46,10 @@ struct VertexLinks {
 ///
 /// Rows are blurred over the surface, so that vertices share their walks: by about the distance of two
 /// vertices, and more where light comes through the body, from skin that faces away or is 8 mm away. Such
-/// skin has one vertex every 2 mm. At most five eighths of the links are near ones.
+/// skin has one vertex every 2 mm. Of a row the largest links stay, at most five twelfths of `most_links`
+/// near ones; the rest is added to the nearest of them. Where it would be small, fewer stay: 44 of a vertex
+/// on a head. Where one side of a fold is lit and the other is dark, a link that stands for many brings the
+/// wrong light.
 ///
 /// `objects` have normals. Deterministic; cached by content. Cost: about a millisecond of one core a vertex.
 /// Errors: settings out of range, no skin, the ray library fails.

@@ -137,6 +137,18 @@ TEST(VertexLinks, ThatAreLeftOutAreAddedToThoseKept) {
         EXPECT_NEAR(sum_of_row(all, r).x, sum_of_row(few, r).x, 1e-4);
 }
 
+// Merged links bring the wrong light where one side is lit and the other is dark.
+TEST(VertexLinks, AreMoreWhereMoreLightComesThrough) {
+    const auto mean_links = [](float radius_mm) {
+        const SceneObject object = ball_of_skin(radius_mm);
+        const VertexLinks links =
+            links_of(std::span(&object, 1), {.walks_per_mm2 = 8, .least_walks = 256, .most_links = 1024});
+        return double(links.links.size()) / double(links.first.size() - 2);
+    };
+    const double in_thin = mean_links(2), in_thick = mean_links(40);
+    EXPECT_GT(in_thin, 4 * in_thick);
+}
+
 TEST(VertexLinks, RefuseSettingsOutOfRangeAndScenesWithoutSkin) {
     SceneObject object = ball_of_skin(4);
     const auto message = [&](const VertexLinkSettings& settings) {
