@@ -30,10 +30,10 @@ constexpr int kSmoothings = 2, kFarSmoothings = 2;
 // slowly.
 constexpr float kNearMm = 8;
 constexpr float kLeastCosine = 0.1f;  // of a surface to the ray that finds it
-// Of the absolute weights of a row, summed over the channels: what may be merged into other links. Where one
-// side is lit and the other is dark, a merged link brings the wrong light, and neighbours differ.
-constexpr float kMergedNear = 0.2f, kMergedFar = 0.06f;
-constexpr size_t kLeastNear = 8, kLeastFar = 4;
+// Beyond the least number, links of a row may be merged into others while the sum of their absolute weights,
+// over the channels, is within these.
+constexpr float kMergedNear = 0.3f, kMergedFar = 0.08f;
+constexpr size_t kLeastNear = 20, kLeastFar = 12;
 
 struct LinkTask {
     const RayScene* rays;
@@ -311,7 +311,7 @@ Result<VertexLinks> walk_vertex_links(std::span<const SceneObject> objects, cons
                                       const GaussianSum& profile, const VertexLinkSettings& settings) {
     DERMIS_TRY(check_link_settings(settings));
     Hasher hasher;
-    hasher.add(std::string_view("links 13"));
+    hasher.add(std::string_view("links 14"));
     hasher.add(rays_version()).add(medium.g).add(medium.eta);
     for (size_t c = 0; c < 3; ++c) hasher.add(medium.sigma_s_per_mm[c]).add(medium.sigma_a_per_mm[c]);
     for (const GaussianTerm& term : profile.terms)

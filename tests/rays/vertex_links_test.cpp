@@ -146,7 +146,7 @@ TEST(VertexLinks, AreMoreWhereMoreLightComesThrough) {
         return double(links.links.size()) / double(links.first.size() - 2);
     };
     const double in_thin = mean_links(2), in_thick = mean_links(40);
-    EXPECT_GT(in_thin, 4 * in_thick);
+    EXPECT_GT(in_thin, 3 * in_thick);
 }
 
 TEST(VertexLinks, RefuseSettingsOutOfRangeAndScenesWithoutSkin) {
