@@ -18,7 +18,7 @@ constexpr std::string_view kSettings =
     "texture_space_gaussians[gain=map],"
     "preintegrated[gain=links],"
     "texture_space_gaussians[gain=links],"
-    "texture_space_gaussians[gain=links,light_map_size=320],"
+    "texture_space_gaussians[gain=links,light_map_size=288],"
     "preintegrated[diffuse=walk],"
     "preintegrated[shadow=scattered],"
     "preintegrated[shadow=plain],"
