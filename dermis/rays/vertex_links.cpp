@@ -140,7 +140,7 @@ float size_of(const VertexLink& link) {
 
 struct Kept {
     size_t least, most;
-    float merged;  // of the absolute weights, beyond `least`
+    float merged;  // the largest sum of absolute weights that is merged into other links
 };
 
 // The largest links; the others are added to the nearest of them.

@@ -46,10 +46,10 @@ struct VertexLinks {
 ///
 /// Rows are blurred over the surface, so that vertices share their walks: by about the distance of two
 /// vertices, and more where light comes through the body, from skin that faces away or is 8 mm away. Such
-/// skin has one vertex every 2 mm. Of a row the largest links stay, 32 or, until what is left is small, up to
-/// `most_links`, of which five twelfths are near ones; the rest is added to the nearest of them. A head has
-/// 46 a vertex. Where one side of a fold is lit and the other is dark, a link that stands for many brings the
-/// wrong light.
+/// skin has one vertex every 2 mm. A row keeps its 20 largest near and 12 largest far links, and further ones
+/// until the sum of the rest is small; near ones are at most five twelfths of `most_links`. The rest is added
+/// to the nearest kept links. Where light changes quickly, as between the two sides of a fold, such a merged
+/// link brings the wrong light.
 ///
 /// `objects` have normals. Deterministic; cached by content. Cost: about a millisecond of one core a vertex.
 /// Errors: settings out of range, no skin, the ray library fails.
