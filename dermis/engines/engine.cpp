@@ -13,7 +13,8 @@ namespace {
 
 // Unity: a package with a .meta file beside each file and folder, from the texts of engines/unity_meta. A
 // GUID is a hash of the path, so that a later version of the package replaces an earlier one in place.
-constexpr std::string_view kTable = "Runtime/SkinTable.exr", kUnityHead = "Head/";
+constexpr std::string_view kTable = "Runtime/SkinTable.exr", kUnityHead = "Head/",
+                           kGodotHead = "addons/dermis_skin/head/";
 
 std::string guid_of(std::string_view path) {
     return Hasher().add("com.dermis.skin/").add(path).hex();
@@ -26,10 +27,11 @@ void add_unity_words(const PackageInput& input, Words& words) {
     words["dependencies"] = input.head.empty() ? "" : "\"com.unity.cloud.gltfast\": \"6.14.1\"";
 }
 
-// The importer's settings are of the kind of file; scene.json is a text, package.json is not.
-std::string meta_kind(const std::string& path) {
+// The importer's settings are of the kind of file. Of a head, scene.json is a text and all maps have mip levels.
+std::string import_kind(const std::string& path, std::string_view head_path) {
     const std::string kind = path.substr(path.rfind('.') + 1);
-    return kind == "json" && path.starts_with(kUnityHead) ? "md" : kind;
+    if (!path.starts_with(head_path)) return kind;
+    return kind == "json" ? "md" : kind == "exr" ? "png" : kind;
 }
 
 // Of a head's pictures only the albedo is a colour; what lies over the atlas is clamped.
@@ -55,7 +57,7 @@ std::set<std::string> folders_of(const std::vector<PackageFile>& files) {
 
 Result<void> add_meta_files(const PackageInput& input, std::vector<PackageFile>& files) {
     std::vector<std::pair<std::string, std::string>> targets;  // path, kind
-    for (const PackageFile& file : files) targets.emplace_back(file.path, meta_kind(file.path));
+    for (const PackageFile& file : files) targets.emplace_back(file.path, import_kind(file.path, kUnityHead));
     for (const std::string& folder : folders_of(files)) targets.emplace_back(folder, "folder");
     for (const auto& [path, kind] : targets) {
         if (!has_meta(path)) continue;
@@ -74,10 +76,10 @@ Result<void> add_import_files(const PackageInput& input, std::vector<PackageFile
     const size_t count = files.size();
     for (size_t i = 0; i < count; ++i) {
         const std::string path = files[i].path;
-        if (!path.starts_with("addons/dermis_skin/head/")) continue;
-        const std::string kind = path.substr(path.rfind('.') + 1);
-        const auto found = std::ranges::find(input.templates, "engines/godot_import/" + kind + ".import",
-                                             &PackageTemplate::path);
+        if (!path.starts_with(kGodotHead)) continue;
+        const auto found = std::ranges::find(
+            input.templates, "engines/godot_import/" + import_kind(path, kGodotHead) + ".import",
+            &PackageTemplate::path);
         if (found == input.templates.end()) continue;
         DERMIS_TRY_ASSIGN(const std::string text, filled(*found, {{"path", path}}));
         files.push_back({path + ".import", to_bytes(text)});
@@ -114,7 +116,7 @@ const std::vector<Engine>& all_engines() {
         {.name = "godot",
          .texts = {{"addons/dermis_skin/skin.gdshaderinc", shading::Language::gdshader}},
          .license_path = "addons/dermis_skin/LICENSE",
-         .head_path = "addons/dermis_skin/head/",
+         .head_path = kGodotHead,
          // Its importer interpolates rotations of cubic splines as linear keys.
          .head_format = {.map_files = true, .linear_keys = true},
          .table_path = "addons/dermis_skin/skin_table.exr",

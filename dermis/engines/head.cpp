@@ -304,12 +304,24 @@ Result<json> head_lights_json(const HeadInput& input, Head& head) {
     return lights;
 }
 
-// The renderer's own three textures, of which red has 10 bits: head.h.
+// 16 bits as two bytes, for a reader of 8 bits: the high ones above the low ones.
+Image in_two_bytes(const Image& values) {
+    Image bytes(values.width, 2 * values.height, values.channels, PixelFormat::u8);
+    for (int y = 0; y < values.height; ++y)
+        for (int x = 0; x < values.width; ++x)
+            for (int c = 0; c < values.channels; ++c) {
+                const auto code = int(std::lround(values.at(x, y, c) * 65535));
+                bytes.set(x, y, c, float(code >> 8) / 255);
+                bytes.set(x, values.height + y, c, float(code & 255) / 255);
+            }
+    return bytes;
+}
+
+// The renderer's own three textures: head.h. Red has 10 bits: with 8 the captured share is lower by .02.
 Result<json> add_normals(const DiffusedNormals& normals, bool red_in_halves, Head& head) {
     const std::vector<gpu::TextureData> textures = diffused_normals_textures(normals);
     Image green(normals.size, normals.size, 3, PixelFormat::u8),
-        spread = green,
-        red(normals.size, normals.size, 3, red_in_halves ? PixelFormat::f16 : PixelFormat::u8);
+        spread = green, red(normals.size, normals.size, 3, red_in_halves ? PixelFormat::f16 : PixelFormat::f32);
     for (int y = 0; y < normals.size; ++y)
         for (int x = 0; x < normals.size; ++x) {
             const size_t at = size_t(y) * size_t(normals.size) + size_t(x);
@@ -324,7 +336,7 @@ Result<json> add_normals(const DiffusedNormals& normals, bool red_in_halves, Hea
             spread.set(x, y, 2, float(textures[1].bytes[4 * at + 3]) / 255);
         }
     const std::string red_name = red_in_halves ? "normals_red.exr" : "normals_red.png";
-    DERMIS_TRY(add_picture(red_name, red, head.files));
+    DERMIS_TRY(add_picture(red_name, red_in_halves ? red : in_two_bytes(red), head.files));
     DERMIS_TRY(add_picture("normals_green.png", green, head.files));
     DERMIS_TRY(add_picture("normals_spread.png", spread, head.files));
     return json{red_name, "normals_green.png", "normals_spread.png"};
@@ -429,7 +441,7 @@ Result<Head> make_head(const HeadInput& input) {
     }
     DERMIS_TRY_ASSIGN(made["environment"], add_panorama(scene.environment, input.format, head));
     if (input.normals.size > 0) {
-        DERMIS_TRY_ASSIGN(made["baked_normals"], add_normals(input.normals, input.format.still_maps, head));
+        DERMIS_TRY_ASSIGN(made["baked_normals"], add_normals(input.normals, input.format.map_files, head));
     }
     if (!input.thickness_mm.empty()) {
         DERMIS_TRY_ASSIGN(made["thickness"], add_thickness(input.thickness_mm, head));

@@ -21,12 +21,13 @@
 //              curvature_of_targets of the object in scene.json names the targets in their order, and has the
 //              rows of each and the largest change in 1/mm, which is kCurvatureSteps steps
 // normals_red.png, normals_green.png, normals_spread.png
-//              baked normals (shaders/include/skin/baked_normals.glsl) over the atlas
+//              baked normals (shaders/include/skin/baked_normals.glsl) over the atlas. Red has 16 bits: the
+//              high bytes above the low ones, in a picture of twice the height
 // thickness.png over the atlas: kThicknessMaxMm for a value of 1
 // N_M_normal.png an object-space normal map, which glTF cannot hold
 // N_M_albedo.png, N_M_normal.png, N_M_surface.png
 //              with HeadFormat::map_files, of the material M: surface has occlusion, roughness, factor on the
-//              reflectance
+//              reflectance; red's baked normals are normals_red.exr then, in halves
 // environment.hdr latitude-longitude, linear
 //
 // With ambient_probe, environment.ambient_probe of scene.json has 27 numbers: nine coefficients of Unity's
@@ -34,9 +35,8 @@
 // mirrored.
 //
 // With still_maps, the meshes have none of the numbers above from TEXCOORD_2 on: vertex_maps of scene.json
-// names the maps that have them (head_maps.h), red's baked normals are normals_red.exr, in halves, and a mesh
-// stands still. A directional light has the map of its shadow, and environment.ambient_terms has nine
-// colours.
+// names the maps that have them (head_maps.h), and a mesh stands still. A directional light has the map of its
+// shadow, and environment.ambient_terms has nine colours.
 
 #include <array>
 #include <string>

@@ -16,7 +16,7 @@ import { Mesh } from "@babylonjs/core/Meshes/mesh.js";
 import { VertexData } from "@babylonjs/core/Meshes/mesh.vertexData.js";
 import { changesIn, SkinHeadCurvature } from "./SkinHeadCurvature.js";
 import { metres, readGlb, readSettings, readTexels, shadowFrustum } from "./SkinHeadFiles.js";
-import { loadDirections, loadTexture, materialOf } from "./SkinHeadMaterial.js";
+import { loadDirections, loadFineDirections, loadTexture, materialOf } from "./SkinHeadMaterial.js";
 import { loadSkinTable } from "./SkinMaterialPlugin.js";
 import { frameAttribute, headAttributes } from "./SkinSurfaceCode.js";
 
@@ -140,7 +140,8 @@ async function addEnvironment(scene, { file, intensity, yaw_rad }, folder) {
 async function sharedMaps(scene, { baked_normals, thickness }, folder) {
   const shared = { table: await loadSkinTable(scene) };
   if (baked_normals) {
-    const [red, green, spread] = await Promise.all(baked_normals.map(file => loadDirections(scene, folder + file)));
+    const [red, green, spread] = await Promise.all(
+      baked_normals.map((file, i) => (i === 0 ? loadFineDirections : loadDirections)(scene, folder + file)));
     shared.bakedNormals = { red, green, spread };
   }
   if (thickness) {

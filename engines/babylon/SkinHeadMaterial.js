@@ -1,11 +1,14 @@
 // A material of a head's GLB as Babylon's PBRMaterial, of skin with SkinMaterialPlugin. Textures have their first row at v = 0.
 
+import { Constants } from "@babylonjs/core/Engines/constants.js";
 import { Material } from "@babylonjs/core/Materials/material.js";
 import { PBRMaterial } from "@babylonjs/core/Materials/PBR/pbrMaterial.js";
+import { RawTexture } from "@babylonjs/core/Materials/Textures/rawTexture.js";
 import { Texture } from "@babylonjs/core/Materials/Textures/texture.js";
 import { Color3 } from "@babylonjs/core/Maths/math.color.js";
+import { ToHalfFloat } from "@babylonjs/core/Misc/halfFloat.js";
 import { readBytes } from "./SkinHeadFiles.js";
-import { mipLevels, pictureOf } from "./SkinMipLevels.js";
+import { fineMipLevels, mipLevels, pictureOf } from "./SkinMipLevels.js";
 import { SkinMaterialPlugin } from "./SkinMaterialPlugin.js";
 
 // A promise of a texture; of a colour it holds sRGB, else lengths, directions and factors.
@@ -24,13 +27,29 @@ export const loadTexture = (scene, url, { isColor, mimeType }) => new Promise((d
   texture.anisotropicFilteringLevel = 1;  // as the renderer: the baked normals are of such a normal map
 });
 
-// A promise of a texture of directions.
-export async function loadDirections(scene, url, mimeType = "image/png") {
-  const levels = mipLevels(await pictureOf(new Blob([await readBytes(url)], { type: mimeType })));
-  const texture = await loadTexture(scene, url, { isColor: false, mimeType }), engine = scene.getEngine();
+function withLevels(texture, levels, scene) {
+  const engine = scene.getEngine();
   engine.flushFramebuffer();  // WebGPU would draw its own levels later, over these
   levels.forEach(({ data, width, height }, i) => engine.updateTextureData(texture._texture, data, 0, 0, width, height, 0, i));
   return texture;
+}
+
+const loadPicture = async (url, type) => pictureOf(new Blob([await readBytes(url)], { type }));
+
+// A promise of a texture of directions.
+export async function loadDirections(scene, url, mimeType = "image/png") {
+  const levels = mipLevels(await loadPicture(url, mimeType));
+  return withLevels(await loadTexture(scene, url, { isColor: false, mimeType }), levels, scene);
+}
+
+// Of 16 bits.
+export async function loadFineDirections(scene, url) {
+  const levels = fineMipLevels(await loadPicture(url, "image/png")).map(level => ({ ...level, data: Uint16Array.from(level.data, ToHalfFloat) }));
+  const [{ data, width, height }] = levels;
+  const texture = new RawTexture(data, width, height, Constants.TEXTUREFORMAT_RGBA, scene, true, false, Texture.TRILINEAR_SAMPLINGMODE,
+    Constants.TEXTURETYPE_HALF_FLOAT);
+  Object.assign(texture, { gammaSpace: false, anisotropicFilteringLevel: 1 });
+  return withLevels(texture, levels, scene);
 }
 
 // Of a texture of glTF; null where there is none.

@@ -30,15 +30,20 @@ export function texelsOf(picture) {
   return { data: new Uint8Array(context.getImageData(0, 0, width, height).data.buffer), width, height };
 }
 
-// [{ data, width, height }], the picture first, down to 1 x 1.
-export function mipLevels(picture) {
-  let level = texelsOf(picture);
-  const levels = [level];
-  while (level.width > 1 || level.height > 1) {
-    level = halved(level);
-    levels.push({ ...level, data: new Uint8Array(level.data.map(Math.round)) });
-  }
+// Unrounded, down to 1 x 1.
+function levelsOf(texels) {
+  const levels = [texels];
+  for (let level = texels; level.width > 1 || level.height > 1; levels.push(level)) level = halved(level);
   return levels;
+}
+
+// [{ data, width, height }], the picture first, in bytes.
+export const mipLevels = picture => levelsOf(texelsOf(picture)).map(level => ({ ...level, data: Uint8Array.from(level.data, Math.round) }));
+
+// The same of 16 bits, of which the high bytes are above the low ones: floats, 0 to 1.
+export function fineMipLevels(picture) {
+  const { data, width, height } = texelsOf(picture), count = data.length / 2;
+  return levelsOf({ data: Float32Array.from({ length: count }, (_, i) => (256 * data[i] + data[count + i]) / 65535), width, height: height / 2 });
 }
 
 // A promise of a picture with the texels that are stored in a blob: no colour management.

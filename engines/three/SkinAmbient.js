@@ -4,9 +4,10 @@
 // which depend on its curvature.
 
 import { REVISION } from "three/webgpu";
-import { float, getShIrradianceAt, isolate, materialEnvIntensity, normalWorld, vec3 } from "three/tsl";
+import { float, getShIrradianceAt, isolate, materialEnvIntensity, materialEnvRotation, normalWorld, uniformArray, vec3, vec4 } from "three/tsl";
 
 const away = /*@__PURE__*/ normalWorld.negate();
+const kMeanOverFirst = 0.886227;  // of an irradiance, over the first coefficient of its radiance
 
 // irradiance: E(n), E(-n) and the mean of E over all directions. bands: the factors.
 const change = (towardsN, awayFromN, mean, [band1, band2]) => {
@@ -29,7 +30,7 @@ function changeOfNormals(irradiance, here, mean, { ambientNormals, bands: [band1
 export function changeOfLight(lightNode, surface) {
   const { bands, ambientNormals, toWorld } = surface;
   if (lightNode.light?.isLightProbe) {
-    const harmonics = lightNode.lightProbe, mean = harmonics.element(0).mul(0.886227);
+    const harmonics = lightNode.lightProbe, mean = harmonics.element(0).mul(kMeanOverFirst);
     if (ambientNormals)
       return changeOfNormals(direction => getShIrradianceAt(toWorld(direction), harmonics), getShIrradianceAt(normalWorld, harmonics), mean, surface);
     return change(getShIrradianceAt(normalWorld, harmonics), getShIrradianceAt(away, harmonics), mean, bands);
@@ -41,6 +42,21 @@ export function changeOfLight(lightNode, surface) {
     return half.mul(vec3(...ambientNormals.map(normal => toWorld(normal).dot(up)))).mul(bands[0]).sub(here);
   }
   return null;
+}
+
+// The environment's irradiance by nine coefficients of its radiance, in the axes of a panorama whose middle is -Z; surface: null for Lambert.
+// EnvironmentNode's own irradiance is filtered as a rough reflection: its second band is stronger than that of a cosine.
+export function lightOfHarmonics(coefficients, surface) {
+  const harmonics = uniformArray(coefficients, "vec3");
+  const irradiance = direction => {
+    const turned = materialEnvRotation.mul(vec4(direction, 0)).xyz.toVar();
+    return getShIrradianceAt(vec3(turned.z, turned.y, turned.x.negate()), harmonics).mul(materialEnvIntensity);
+  };
+  const here = irradiance(normalWorld).toVar();
+  if (!surface) return here;
+  const mean = harmonics.element(0).mul(kMeanOverFirst).mul(materialEnvIntensity);
+  if (!surface.ambientNormals) return here.add(change(here, irradiance(away), mean, surface.bands));
+  return here.add(changeOfNormals(direction => irradiance(surface.toWorld(direction)), here, mean, surface));
 }
 
 // Of EnvironmentNode. Its roughest level is the irradiance over pi; the mean of six directions is that of the sphere for every

@@ -6,14 +6,15 @@
 //     renderer.shadowMap.enabled = true;
 
 import {
-  AnimationMixer, BufferAttribute, Color, DataTexture, DirectionalLight, DoubleSide, EquirectangularReflectionMapping, Group, LinearFilter,
-  LinearMipmapLinearFilter, LoopOnce, NoColorSpace, ObjectSpaceNormalMap, PerspectiveCamera, PointLight, SpotLight, TextureLoader, Vector3,
+  AnimationMixer, BufferAttribute, Color, DataTexture, DataUtils, DirectionalLight, DoubleSide, EquirectangularReflectionMapping, Group,
+  HalfFloatType, LinearFilter, LinearMipmapLinearFilter, LoopOnce, NoColorSpace, ObjectSpaceNormalMap, PerspectiveCamera, PointLight, RGBAFormat,
+  SpotLight, TextureLoader, Vector3,
 } from "three/webgpu";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/addons/loaders/HDRLoader.js";
 import { changesIn, SkinHeadCurvature } from "./SkinHeadCurvature.js";
 import { metres, readBytes, readSettings, readTexels, shadowFrustum } from "./SkinHeadFiles.js";
-import { mipLevels, pictureOf } from "./SkinMipLevels.js";
+import { fineMipLevels, mipLevels, pictureOf } from "./SkinMipLevels.js";
 import { loadSkinTable, SkinNodeMaterial } from "./SkinNodeMaterial.js";
 
 const vector = lengthsMm => new Vector3(...metres(lengthsMm));
@@ -28,15 +29,22 @@ async function loadData(url) {
 }
 
 // A texture of directions.
-function directions(picture) {
-  const mipmaps = mipLevels(picture), [{ data, width, height }] = mipmaps, texture = new DataTexture(data, width, height);
+function directions(mipmaps, type) {
+  const [{ data, width, height }] = mipmaps, texture = new DataTexture(data, width, height, RGBAFormat, type);
   return Object.assign(texture, { mipmaps, minFilter: LinearMipmapLinearFilter, magFilter: LinearFilter, needsUpdate: true });
 }
 
-const loadDirections = async url => directions(await pictureOf(new Blob([await readBytes(url)])));
+const loadPicture = async url => pictureOf(new Blob([await readBytes(url)]));
+const loadDirections = async url => directions(mipLevels(await loadPicture(url)));
+
+// Of 16 bits.
+async function loadFineDirections(url) {
+  const levels = fineMipLevels(await loadPicture(url));
+  return directions(levels.map(level => ({ ...level, data: Uint16Array.from(level.data, DataUtils.toHalfFloat) })), HalfFloatType);
+}
 
 // One of glTF with such levels.
-const withLevels = ({ image, wrapS, wrapT, channel }) => Object.assign(directions(image), { wrapS, wrapT, channel });
+const withLevels = ({ image, wrapS, wrapT, channel }) => Object.assign(directions(mipLevels(image)), { wrapS, wrapT, channel });
 
 function skinMaterial(source, settings, shared) {
   const { name, color, map, normalScale, roughness, roughnessMap, aoMap, side, shadowSide } = source;
@@ -148,8 +156,10 @@ function lightOf(settings, { bounds }, frustum) {
 export async function loadSkinHead(folder = new URL("./head/", import.meta.url).href) {
   const settings = await readSettings(folder, "three"), { baked_normals, thickness, environment, camera } = settings;
   const shared = { table: await loadSkinTable(), penumbraMm: settings.penumbra_mm }, frustum = shadowFrustum(settings);
+  if (environment) shared.environmentHarmonics = environment.radiance_sh.map(color => new Vector3(...color));
   if (baked_normals) {
-    const [red, green, spread] = await Promise.all(baked_normals.map(file => loadDirections(folder + file)));
+    const [red, green, spread] = await Promise.all(
+      baked_normals.map((file, i) => (i === 0 ? loadFineDirections : loadDirections)(folder + file)));
     shared.bakedNormals = { red, green, spread };
   }
   if (thickness) {

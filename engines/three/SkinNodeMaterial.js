@@ -9,7 +9,7 @@ import {
   diffuseContribution, float, materialReference, materialRoughness, mix, normalView, normalViewGeometry, positionViewDirection,
   screenCoordinate, specularColor, specularColorBlended, specularF90, texture, vec3,
 } from "three/tsl";
-import { changeOfEnvironment, changeOfLight } from "./SkinAmbient.js";
+import { changeOfEnvironment, changeOfLight, lightOfHarmonics } from "./SkinAmbient.js";
 import {
   diffuseCoordinate, fresnelSchlick, ggx, signOfMissingCurvature, signOfMissingTable, skinDiffuse, skinFarShare, thinLight,
   twoLobeGgx,
@@ -93,6 +93,7 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
     this.isSkinNodeMaterial = true;
     this.table = null;               // of loadSkinTable()
     this.closedForm = false;         // true: no table is read, about 90 multiply-adds a light instead
+    this.environmentHarmonics = null;  // nine colours as Vector3: what diffuse light takes instead of filtered scene.environment
     this.bakedNormals = null;        // { red, green, spread }: textures of a head, over its second texture coordinates
     this.scatteredShadow = true;     // 16 reads of a shadow map, 64 at an edge, instead of a hard edge
     this.penumbraMm = 0;             // width of a shadow's edge: 24 reads of the map more; 0: the renderer's own filter
@@ -113,7 +114,7 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
 
   copy(source) {
     const own = ["table", "closedForm", "curvatureAttribute", "thicknessMap", "thicknessMaxMm", "thicknessNode", "mmPerUnit",
-      "curvatureGain", "f0", "bakedNormals", "scatteredShadow", "penumbraMm", "scattering", "gain", "specularMap", "twoLobes"];
+      "curvatureGain", "f0", "environmentHarmonics", "bakedNormals", "scatteredShadow", "penumbraMm", "scattering", "gain", "specularMap", "twoLobes"];
     for (const name of own) this[name] = source[name];
     return super.copy(source);
   }
@@ -122,7 +123,8 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
   customProgramCacheKey() {
     const table = this.closedForm ? "none" : this.table?.uuid ?? "missing";
     const maps = [this.thicknessMap, this.bakedNormals?.red, this.specularMap].map(map => map?.uuid).join(" ");
-    const choices = [this.curvatureAttribute, this.scatteredShadow, this.penumbraMm > 0, this.scattering, this.gain, this.twoLobes].join(" ");
+    const harmonics = this.environmentHarmonics?.map(({ x, y, z }) => [x, y, z]).join();
+    const choices = [harmonics, this.curvatureAttribute, this.scatteredShadow, this.penumbraMm > 0, this.scattering, this.gain, this.twoLobes].join(" ");
     return `${super.customProgramCacheKey()} ${table} ${faultOfTable(this.table)} ${choices} ${maps}`;
   }
 
@@ -133,8 +135,10 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
 
     environment.setup = inner => {
       setup.call(environment, inner);
-      const { material, surface } = inner.context.lightingModel;
-      if (material.scattering) inner.context.iblIrradiance.addAssign(changeOfEnvironment(environment, surface));
+      const { context: { iblIrradiance, lightingModel: { material, surface } } } = inner;
+      if (material.environmentHarmonics)
+        iblIrradiance.assign(lightOfHarmonics(material.environmentHarmonics, material.scattering ? surface : null));
+      else if (material.scattering) iblIrradiance.addAssign(changeOfEnvironment(environment, surface));
     };
     return environment;
   }

@@ -27,8 +27,8 @@ Quadric quadric_around(Surface s, vec3 to_light_world, vec3 across_light_world) 
     return q;
 }
 
-// All four pixels of a quad must call this together. Where they are near each other, each takes a quarter of the taps. Every
-// fourth tap comes first: if these taps and the filtered shadow agree that all or nothing is lit, the rest is skipped.
+// All four pixels of a quad must call this together. Where they are near each other, each takes a quarter of the taps. The
+// farthest taps come first: if these and the filtered shadow agree that all or nothing is lit, the rest is skipped.
 Entering gathered_visibility(Surface s, int light, vec3 to_light_world, float visibility) {
     Entering plain = Entering(vec3(visibility), vec3(visibility));
     LightSource source = light_source(light);

@@ -192,8 +192,7 @@ Result<Rows> tap_rows(const TableSettings&, const SkinContext& skin) {
     Rows rows(size_t(kRowTexels) * 2);
     const std::vector<ShadowTap> taps = shadow_taps(skin.gaussians);
     for (size_t i = 0; i < taps.size(); ++i) {
-        constexpr size_t kEvery = size_t(kShadowGatherTaps / kShadowFirstTaps);
-        const size_t at = i % kEvery * kShadowFirstTaps + i / kEvery;
+        const size_t at = (i + kShadowFirstTaps) % kShadowGatherTaps;  // the farthest ones first
         rows[at] = texel(taps[i].weight, taps[i].penumbra_weight);
         const double r = taps[i].radius_mm, angle = double(i) * kGoldenAngle;
         rows[kRowTexels + at] =

@@ -19,6 +19,7 @@ namespace Dermis
         const string kFolder = "Packages/com.dermis.skin/Head/";
         const string kTable = "Packages/com.dermis.skin/Runtime/SkinTable.exr";
         const float kMmPerUnit = 1000.0f;
+        const int kShadowMapSide = 4096;
 
         [SerializeField] TextAsset scene;
         [SerializeField] List<Follower> followers = new List<Follower>();
@@ -136,6 +137,9 @@ namespace Dermis
             if (pipeline.shadowDistance > 1.5f * needed || pipeline.shadowDistance < 0.9f * needed)
                 Debug.LogWarning($"Skin head: set Shadows > Max Distance of the URP asset to {needed:F2}; its shadows are coarse or missing with " +
                                  $"{pipeline.shadowDistance:F2}.", this);
+            if (pipeline.mainLightShadowmapResolution < kShadowMapSide)
+                Debug.LogWarning($"Skin head: set Lighting > Main Light > Shadow Resolution of the URP asset to {kShadowMapSide}; edges of " +
+                                 $"shadows scatter less with {pipeline.mainLightShadowmapResolution}.", this);
         }
 
         static float ShadowDistance(Settings settings) =>

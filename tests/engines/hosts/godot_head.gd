@@ -90,7 +90,8 @@ func _import_folder(folder: String) -> void:
 		_import_folder(folder + name + "/")
 	for name in DirAccess.get_files_at(folder):
 		if name.ends_with(".halves"):
-			_import_halves(folder + name.get_basename().get_basename(), int(name.get_basename().get_extension()), FileAccess.get_file_as_bytes(folder + name))
+			var path := folder + name.get_basename().get_basename()
+			_import_halves(path, int(name.get_basename().get_extension()), FileAccess.get_file_as_bytes(folder + name))
 		elif name.ends_with(".import") and not name.ends_with(".exr.import"):
 			_import(folder + name.trim_suffix(".import"), FileAccess.get_file_as_string(folder + name))
 
@@ -114,6 +115,8 @@ func _import(path: String, settings: String) -> void:
 func _import_halves(path: String, width: int, halves: PackedByteArray) -> void:
 	@warning_ignore("integer_division")
 	var image := Image.create_from_data(width, halves.size() / (8 * width), false, Image.FORMAT_RGBAH, halves)
+	if FileAccess.get_file_as_string(path + ".import").contains("mipmaps/generate=true"):
+		image.generate_mipmaps()
 	imported.append(ImageTexture.create_from_image(image))
 	imported[-1].take_over_path(path)
 

@@ -19,8 +19,9 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using namespace drawn_head;
 
-constexpr float kNear = 0.05f, kFar = 20;  // SkinHead.cs
-constexpr int kShadowSide = 2048;          // a new URP asset's
+// SkinHead.cs has the same.
+constexpr float kNear = 0.05f, kFar = 20;
+constexpr int kShadowSide = 4096;
 
 Vec3 mirrored(const json& numbers) {
     return {-float(numbers[0]), float(numbers[1]), float(numbers[2])};
