@@ -4,11 +4,13 @@ extends Node
 
 const FOLDER := "res://addons/dermis_skin/"
 
-const SCALE := 0.5  # of all light, so that nothing is cut off at 1
+# Of all light: nothing is cut off at 1, and the mean of several pictures is finer than the 8 bits of each.
+const SCALES: Array[float] = [0.5, 0.488, 0.477, 0.465, 0.454, 0.443]
 
 var choice := {}
 var viewport := SubViewport.new()
 var energy := 1.0  # the head's, of the environment
+var background_linear := Color.BLACK
 var imported: Array[Resource] = []  # the cache does not keep them
 
 
@@ -18,16 +20,13 @@ func _ready() -> void:
 	_import_folder(FOLDER)
 	viewport.size = Vector2i.ONE * int(choice.side) * int(choice.points)
 	viewport.own_world_3d = true
-	viewport.use_hdr_2d = true  # floats, although sRGB
 	viewport.render_target_update_mode = SubViewport.UPDATE_ALWAYS
 	viewport.positional_shadow_atlas_size = 4096
 	add_child(viewport)
 	var head: Node3D = load(FOLDER + "head/skin_head.tscn").instantiate()
 	viewport.add_child(head)
 	energy = head.environment.background_energy_multiplier
-	head.environment.tonemap_exposure = SCALE
-	# Compatibility does not expose the background.
-	head.environment.background_color = (head.environment.background_color.srgb_to_linear() * SCALE).linear_to_srgb()
+	background_linear = head.environment.background_color.srgb_to_linear()
 	if choice.has("rest"):
 		await _add_moment(head)
 	if choice.has("clip"):
@@ -61,12 +60,12 @@ func _add_square(head: Node3D) -> void:
 		for light: Light3D in head.lights:
 			light.visible = light == only
 		_set_ambient(head, 0.0)
-		await _add_picture()
+		await _add_pictures(head)
 	for light: Light3D in head.lights:
 		light.visible = false
 	_set_ambient(head, 1.0)
-	await _add_picture()
-	JavaScriptBridge.eval("window.endSquare(%f)" % SCALE)
+	await _add_pictures(head)
+	JavaScriptBridge.eval("window.endSquare()")
 
 
 func _set_ambient(head: Node3D, part: float) -> void:
@@ -77,12 +76,16 @@ func _set_ambient(head: Node3D, part: float) -> void:
 		skin.set_shader_parameter("has_environment", part > 0.0)
 
 
-func _add_picture() -> void:
-	for i in 3:
-		await RenderingServer.frame_post_draw
-	var image := viewport.get_texture().get_image()
-	image.convert(Image.FORMAT_RGBAF)
-	JavaScriptBridge.eval("window.addPicture('%s')" % Marshalls.raw_to_base64(image.get_data()))
+func _add_pictures(head: Node3D) -> void:
+	for scale in SCALES:
+		head.environment.tonemap_exposure = scale
+		# Compatibility does not expose the background.
+		head.environment.background_color = (background_linear * scale).linear_to_srgb()
+		for i in 3 if scale == SCALES[0] else 1:
+			await RenderingServer.frame_post_draw
+		var image := viewport.get_texture().get_image()
+		image.convert(Image.FORMAT_RGBA8)
+		JavaScriptBridge.eval("window.addPicture('%s', %f)" % [Marshalls.raw_to_base64(image.get_data()), scale * SCALES.size()])
 
 
 func _import_folder(folder: String) -> void:

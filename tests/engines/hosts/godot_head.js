@@ -60,12 +60,12 @@ const read = async path => {
 const written = (path, text) => ({ path, bytes: new TextEncoder().encode(text) });
 
 const squares = [], sum = new Float32Array(4 * (side * points) ** 2), linear = s => s <= 0.04045 ? s / 12.92 : ((s + 0.055) / 1.055) ** 2.4;
-window.addPicture = text => {
-  const floats = new Float32Array(Uint8Array.from(atob(text), letter => letter.charCodeAt(0)).buffer);
-  floats.forEach((value, i) => { sum[i] += linear(value); });
+window.addPicture = (text, scale) => {
+  const values = Uint8Array.from(atob(text), letter => letter.charCodeAt(0));
+  values.forEach((value, i) => { sum[i] += linear(value / 255) / scale; });
 };
-window.endSquare = scale => {
-  squares.push(sum.map(value => value / scale));
+window.endSquare = () => {
+  squares.push(sum.slice());
   sum.fill(0);
 };
 window.showSquares = () => showFloats(squares, { side, points, fromBottom: false });
