@@ -119,18 +119,21 @@ std::string shadow_places_text(std::span<const ShadowPlace> places) {
     return text;
 }
 
-// The same as the initialisers of two arrays in HLSL.
+// The same as the initialisers of two arrays, in HLSL and in GLSL's dialects.
 void add_shadow_place_words(std::span<const ShadowPlace> places, Words& words) {
-    std::string offsets, weights;
-    for (const ShadowPlace& place : places) {
-        const Vec3 &at = place.offset_mm, &weight = place.weight;
-        const std::string_view separator = offsets.empty() ? "" : ",\n    ";
-        offsets += fmt::format("{}float4({:.5g}, {:.5g}, {:.5g}, {:.5g})", separator, at.x, at.y, at.z,
-                               place.penumbra);
-        weights += fmt::format("{}float3({:.5g}, {:.5g}, {:.5g})", separator, weight.x, weight.y, weight.z);
+    for (const auto& [type, ending] : {std::pair("float", ""), {"vec", "_glsl"}}) {
+        std::string offsets, weights;
+        for (const ShadowPlace& place : places) {
+            const Vec3 &at = place.offset_mm, &weight = place.weight;
+            const std::string_view separator = offsets.empty() ? "" : ",\n    ";
+            offsets += fmt::format("{}{}4({:.5g}, {:.5g}, {:.5g}, {:.5g})", separator, type, at.x, at.y, at.z,
+                                   place.penumbra);
+            weights +=
+                fmt::format("{}{}3({:.5g}, {:.5g}, {:.5g})", separator, type, weight.x, weight.y, weight.z);
+        }
+        words[std::string("shadow_place_offsets") + ending] = offsets;
+        words[std::string("shadow_place_weights") + ending] = weights;
     }
-    words["shadow_place_offsets"] = offsets;
-    words["shadow_place_weights"] = weights;
     words["shadow_place_count"] = std::to_string(places.size());
 }
 
@@ -158,6 +161,7 @@ Words common_words(const PackageInput& input) {
                    {"shadow_places", shadow_places_text(input.shadow_places.all)},
                    {"first_shadow_places", std::to_string(input.shadow_places.first)},
                    {"shadow_taps", std::to_string(kShadowTaps)},
+                   {"outer_shadow_taps", std::to_string(kShadowOuterTaps)},
                    {"shadow_concavity", to_text(kShadowConcavity)},
                    {"shadow_facet_lift", to_text(kShadowFacetLift)},
                    {"shadow_max_slope", decimal(kShadowMaxSlope)},

@@ -129,9 +129,9 @@ class HeadPackage : public testing::TestWithParam<const char*> {
         return picture ? to_linear_float(picture->image) : Image(48, 48, 3);
     }
 
-    /// The drawn pictures lambert, scattering, gain, normals, curvature and srgb, the last three with a
-    /// mistake: the error of scattering's effect, over the effect of preintegrated with these settings.
-    void expect_effect(const std::string& settings, double most_error);
+    /// The drawn pictures lambert, scattering, gain, and with a mistake normals, curvature, srgb and these:
+    /// the error of scattering's effect, over the effect of preintegrated.
+    void expect_effect(double most_error, const std::vector<std::string>& mistakes = {});
 
     /// A page draws several pictures: loading a head takes most of its time.
     Motion draw_motion(const std::string& clip, const std::string& time_s) {
@@ -159,8 +159,7 @@ class HeadPackage : public testing::TestWithParam<const char*> {
     void expect_curvature_follows(const Image& followed, const Image& kept, const std::string& moment);
 
     /// Against Dermis with what was baked at rest: the errors of scattering's effect, and Lambert's motion.
-    void expect_motion(const Motion& drawn, const std::string& moment, const std::string& settings,
-                       double most_error);
+    void expect_motion(const Motion& drawn, const std::string& moment, double most_error);
 
     // Turned in the scene: what is baked is in another space than the vertices of the file.
     void use_turned_bust() {
@@ -250,7 +249,7 @@ class MovingUnityHead : public DrawnHead {
         expect_motion(
             {drawn("rest", ""), drawn("rest_lambert", "--lambert"), drawn("moved", moment),
              drawn("moved_lambert", moment + " --lambert"), drawn("mistake", moment + " --mistake frames")},
-            moment, "", 0.3);
+            moment, 0.3);
     }
 };
 const auto kName = [](const auto& one) { return std::string(one.param); };
@@ -286,30 +285,29 @@ Image change(const Image& a, const Image& b) {
     return image;
 }
 
-void HeadPackage::expect_effect(const std::string& settings, double most_error) {
-    const Image lambert = read("lambert"), nothing(48, 48, 3),
-                none = rendered(kPreintegrated + "none" + settings);
+void HeadPackage::expect_effect(double most_error, const std::vector<std::string>& mistakes) {
+    const Image lambert = read("lambert"), nothing(48, 48, 3), none = rendered(kPreintegrated + "none");
     const Image effect = change(none, rendered("--technique lambert"));
-    const auto error_of = [&](const char* name) {
+    const auto error_of = [&](const std::string& name) {
         const double error = distance(change(read(name), lambert), effect) / distance(effect, nothing);
         RecordProperty(name, std::to_string(error));
         return error;
     };
     const double error = error_of("scattering");
     EXPECT_LT(error, most_error);
-    for (const char* mistake : {"normals", "curvature", "srgb"})
-        EXPECT_GT(error_of(mistake), error + 0.1) << mistake;
-    const Image gain = change(rendered(kPreintegrated + "curvature" + settings), none);
+    std::vector<std::string> all = {"normals", "curvature", "srgb"};
+    all.insert(all.end(), mistakes.begin(), mistakes.end());
+    for (const std::string& mistake : all) EXPECT_GT(error_of(mistake), error + 0.1) << mistake;
+    const Image gain = change(rendered(kPreintegrated + "curvature"), none);
     EXPECT_LT(distance(change(read("gain"), read("scattering")), gain), 0.2 * distance(gain, nothing));
 }
 
-void HeadPackage::expect_motion(const Motion& drawn, const std::string& moment, const std::string& settings,
-                                double most_error) {
+void HeadPackage::expect_motion(const Motion& drawn, const std::string& moment, double most_error) {
     const std::string then = moment + " --scene animation.rest_bakes=all";
     const Image lambert = rendered("--technique lambert"),
                 lambert_then = rendered("--technique lambert" + then), nothing(48, 48, 3);
-    const Image effect = change(rendered(kPreintegrated + "none" + settings), lambert),
-                effect_then = change(rendered(kPreintegrated + "none" + settings + then), lambert_then);
+    const Image effect = change(rendered(kPreintegrated + "none"), lambert),
+                effect_then = change(rendered(kPreintegrated + "none" + then), lambert_then);
     const auto error_of = [&](const char* name, const Image& found, const Image& expected) {
         const double error = distance(found, expected) / distance(expected, nothing);
         RecordProperty(name, std::to_string(error));
@@ -365,9 +363,7 @@ TEST_P(BrowserHead, has_the_renderers_share_and_a_mistake_loses_it) {
 
 // Where the bakes do not turn with the surface the head has light from elsewhere.
 TEST_P(MovingHeadPackage, plays_its_clip_and_the_bakes_turn_with_the_surface) {
-    const bool is_godot = engine() == "godot";
-    expect_motion(draw_motion("greet", "1.7"), " --clip greet --time 1.7",
-                  is_godot ? " --set shadow=plain" : "", is_godot ? 0.35 : 0.3);
+    expect_motion(draw_motion("greet", "1.7"), " --clip greet --time 1.7", 0.3);
 }
 
 TEST_P(FollowingHeadPackage, has_the_curvature_of_its_targets) {
@@ -382,7 +378,7 @@ TEST_P(FollowingHeadPackage, has_the_curvature_of_its_targets) {
 
 // Godot applies skins and targets before its shaders, without tangents.
 TEST_P(MovingFacePackage, follows_its_joints_and_targets) {
-    expect_motion(draw_motion("talk", "1.2"), " --clip talk --time 1.2", " --set shadow=plain", 0.45);
+    expect_motion(draw_motion("talk", "1.2"), " --clip talk --time 1.2", 0.45);
 }
 
 TEST_P(MovingUnityHead, plays_its_clip_and_the_bakes_turn_with_the_surface) {
@@ -408,18 +404,14 @@ TEST_P(MovingUnityHead, follows_its_joints_and_targets) {
     expect_unity_motion(" --clip talk --time 1.2");
 }
 
-// Godot gives no shader its shadow map: edges of shadows stay plain.
+// shadow: without its depths the head has the engine's edges; place: its depths are those of another place.
 TEST_P(GodotHead, has_the_renderers_effect_and_a_mistake_loses_it) {
-    const std::vector<Picture> pictures = {{"lambert", "lambert"},
-                                           {"scattering", "webgl"},
-                                           {"gain", "gain"},
-                                           {"normals", "mistake=normals"},
-                                           {"curvature", "mistake=curvature"},
-                                           {"srgb", "mistake=srgb"}};
-    const ProgramResult drawn = draw(pictures);
+    draw_looks({"scattering", "lambert", "normals", "curvature", "shadow"});
+    const ProgramResult drawn =
+        draw({{"gain", "gain"}, {"srgb", "mistake=srgb"}, {"place", "mistake=place"}});
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
 
-    expect_effect(" --set shadow=plain", 0.33);
+    expect_effect(0.25, {"shadow", "place"});
 }
 
 TEST_P(DrawnHead, has_the_renderers_effect_and_a_mistake_loses_it) {
@@ -432,7 +424,7 @@ TEST_P(DrawnHead, has_the_renderers_effect_and_a_mistake_loses_it) {
         const ProgramResult drawn = draw_one(name, options);
         ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
     }
-    expect_effect("", engine() == "unreal" ? 0.15 : 0.25);
+    expect_effect(engine() == "unreal" ? 0.15 : 0.25);
     if (engine() != "unreal") return;
     // In another light than that of its map the head has no shadow: most of the change is there.
     const Image scattering = read("scattering"), lambert = read("lambert");

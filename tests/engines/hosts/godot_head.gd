@@ -36,6 +36,7 @@ func _ready() -> void:
 
 
 func _dress(head: Node3D, look: String) -> void:
+	head.depths_side = 0 if look == "shadow" else 2048
 	for skin: ShaderMaterial in head.skins:
 		for material: ShaderMaterial in [skin, skin.next_pass]:
 			material.set_shader_parameter("scattering", look != "lambert")
@@ -83,9 +84,17 @@ func _add_pictures(head: Node3D) -> void:
 		head.environment.background_color = (background_linear * scale).linear_to_srgb()
 		for i in 3 if scale == SCALES[0] else 1:
 			await RenderingServer.frame_post_draw
+			if choice.get("mistake") == "place":
+				_move_depths(head)
 		var image := viewport.get_texture().get_image()
 		image.convert(Image.FORMAT_RGBA8)
 		JavaScriptBridge.eval("window.addPicture('%s', %f)" % [Marshalls.raw_to_base64(image.get_data()), scale * SCALES.size()])
+
+
+# The depths are looked up 20 mm higher.
+func _move_depths(head: Node3D) -> void:
+	for skin: ShaderMaterial in head.skins:
+		skin.set_shader_parameter("depth_center", head.global_transform * head._metres(head.settings.bounds.center_mm) - Vector3(0.0, 0.02, 0.0))
 
 
 func _import_folder(folder: String) -> void:

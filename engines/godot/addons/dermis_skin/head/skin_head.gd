@@ -6,19 +6,26 @@ extends Node3D
 const FOLDER := "res://addons/dermis_skin/head/"
 const TABLE := "res://addons/dermis_skin/skin_table.exr"
 const MM_PER_UNIT := 1000.0
+const Depths := preload("skin_head_depths.gd")
 const MOST_TARGETS := 64  # of skin_head_surface.gdshaderinc
+
+# Texels along a side of the picture that has a light's depths of the head; 0: shadows have the engine's edges.
+@export_range(0, 4096, 256) var depths_side := 2048
 
 var settings: Dictionary
 var skins: Array[ShaderMaterial] = []
-var lights: Array[Light3D] = []
+var lights: Array[Light3D] = []  # directional ones that shade the skin; yours may be added
 var players: Array[AnimationPlayer] = []  # of the clips, one for each object that moves
 var environment: Environment
+var _depths: Depths
 var _followed: Array[Dictionary] = []  # skins whose curvature follows the targets of their mesh
 
 
 func _ready() -> void:
 	process_priority = 1  # after the players
 	settings = (load(FOLDER + "scene.json") as JSON).data
+	_depths = Depths.new()
+	add_child(_depths, false, Node.INTERNAL_MODE_BACK)
 	for object: Dictionary in settings.objects:
 		_add_object(object)
 	for light: Dictionary in settings.lights:
@@ -52,6 +59,7 @@ func _add_object(object: Dictionary) -> void:
 	for one: Dictionary in object.materials:
 		by_name[one.name] = one
 	for child: MeshInstance3D in node.find_children("*", "MeshInstance3D", true, false):
+		var unseen: Array[int] = []
 		for surface in child.mesh.get_surface_count():
 			var source := child.mesh.surface_get_material(surface)
 			var one: Dictionary = by_name.get(source.resource_name, {"class": "other"})
@@ -62,6 +70,8 @@ func _add_object(object: Dictionary) -> void:
 					_follow_targets(child, skin, object.curvature_of_targets)
 			elif one.class == "translucent":
 				child.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_OFF
+				unseen.append(surface)
+		_depths.add_caster(child, unseen)
 
 
 func _follow_targets(mesh: MeshInstance3D, skin: ShaderMaterial, changes: Dictionary) -> void:
@@ -76,8 +86,15 @@ func _follow_targets(mesh: MeshInstance3D, skin: ShaderMaterial, changes: Dictio
 	_followed.append({"mesh": mesh, "skin": skin, "rows": rows, "opened": opened, "weights": PackedVector2Array()})
 
 
-# The weights of the targets, whoever sets them, for the shaders.
 func _process(_delta: float) -> void:
+	_follow_weights()
+	var scale_here := global_transform.basis.get_scale().x
+	_depths.follow(lights, global_transform * _metres(settings.bounds.center_mm), scale_here * settings.bounds.radius_mm / MM_PER_UNIT,
+			MM_PER_UNIT / scale_here, depths_side)
+
+
+# The weights of the targets, whoever sets them, for the shaders.
+func _follow_weights() -> void:
 	for one: Dictionary in _followed:
 		var weights := PackedVector2Array()
 		for i: int in one.rows.size():
@@ -109,7 +126,7 @@ func _skin_material(one: Dictionary) -> ShaderMaterial:
 	var albedo := _vector(one.albedo_linear)
 	var values := {"f0": one.f0, "roughness": one.roughness, "normal_strength": one.normal_scale, "skin_table": load(TABLE),
 		"albedo": Color(albedo.x, albedo.y, albedo.z).linear_to_srgb(), "object_space_normals": one.object_space_normals,
-		"moves": one.moves}
+		"moves": one.moves, "penumbra_mm": settings.penumbra_mm}
 	for map: String in one.maps:
 		values[map + "_map"] = load(FOLDER + one.maps[map])
 	if settings.has("baked_normals"):
@@ -126,6 +143,7 @@ func _skin_material(one: Dictionary) -> ShaderMaterial:
 		skin.set_shader_parameter(name, values[name])
 		skin.next_pass.set_shader_parameter(name, values[name])
 	skins.append(skin)
+	_depths.skins.append(skin)
 	return skin
 
 
