@@ -27,7 +27,8 @@ void add_unity_words(const PackageInput& input, Words& words) {
     words["dependencies"] = input.head.empty() ? "" : "\"com.unity.cloud.gltfast\": \"6.14.1\"";
 }
 
-// The importer's settings are of the kind of file. Of a head, scene.json is a text and all maps have mip levels.
+// The importer's settings are of the kind of file. Of a head, scene.json is a text and all maps have mip
+// levels.
 std::string import_kind(const std::string& path, std::string_view head_path) {
     const std::string kind = path.substr(path.rfind('.') + 1);
     if (!path.starts_with(head_path)) return kind;

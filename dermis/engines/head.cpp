@@ -321,7 +321,8 @@ Image in_two_bytes(const Image& values) {
 Result<json> add_normals(const DiffusedNormals& normals, bool red_in_halves, Head& head) {
     const std::vector<gpu::TextureData> textures = diffused_normals_textures(normals);
     Image green(normals.size, normals.size, 3, PixelFormat::u8),
-        spread = green, red(normals.size, normals.size, 3, red_in_halves ? PixelFormat::f16 : PixelFormat::f32);
+        spread = green,
+        red(normals.size, normals.size, 3, red_in_halves ? PixelFormat::f16 : PixelFormat::f32);
     for (int y = 0; y < normals.size; ++y)
         for (int x = 0; x < normals.size; ++x) {
             const size_t at = size_t(y) * size_t(normals.size) + size_t(x);

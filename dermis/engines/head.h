@@ -35,8 +35,8 @@
 // mirrored.
 //
 // With still_maps, the meshes have none of the numbers above from TEXCOORD_2 on: vertex_maps of scene.json
-// names the maps that have them (head_maps.h), and a mesh stands still. A directional light has the map of its
-// shadow, and environment.ambient_terms has nine colours.
+// names the maps that have them (head_maps.h), and a mesh stands still. A directional light has the map of
+// its shadow, and environment.ambient_terms has nine colours.
 
 #include <array>
 #include <string>

@@ -37,8 +37,8 @@ const int kTransmissionGaussians = 6;
 // weights and places of the shadow's taps (weights.h).
 const int kRowZonal = 0, kRowShadow = 3, kRowNormals = 4, kRowPublishedNormals = 5, kRowOfMean = 6,
           kRowTapWeights = 7, kRowTapPlaces = 8, kRowCount = 9, kRowTexels = 257;
-// Taps of shadow=gathered; the row has the farthest of them first. An edge within their reach divides them, so
-// that pixels whose first taps agree need no more.
+// Taps of shadow=gathered; the row has the farthest of them first. An edge within their reach divides them,
+// so that pixels whose first taps agree need no more.
 const int kShadowGatherTaps = 64, kShadowFirstTaps = 16;
 // How far a place is lifted off the quadric, over its distance.
 const float kGatherLiftSlope = 0.15f;
