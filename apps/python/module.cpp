@@ -52,6 +52,7 @@ PYBIND11_MODULE(_dermis, module) {
     add_tables(module);
     add_meshes(module);
     add_maps(module);
+    add_exports(module);
     add_pictures(module);
     add_comparisons(module);
     add_metrics(module);

@@ -10,6 +10,7 @@ void add_profiles(py::module_& module);
 void add_tables(py::module_& module);
 void add_meshes(py::module_& module);
 void add_maps(py::module_& module);
+void add_exports(py::module_& module);
 void add_pictures(py::module_& module);
 void add_comparisons(py::module_& module);
 void add_metrics(py::module_& module);

@@ -17,14 +17,18 @@ using PoseArguments = std::tuple<std::string, std::optional<double>, std::vector
 using SceneArguments =
     std::tuple<std::string, std::vector<std::string>, std::string, std::string, PoseArguments>;
 
-[[nodiscard]] inline cli::SceneChoice scene_choice(const SceneArguments& arguments) {
-    const auto& [clip, time_s, morphs] = std::get<4>(arguments);
+[[nodiscard]] inline cli::PoseChoice pose_choice(const PoseArguments& arguments) {
+    const auto& [clip, time_s, morphs] = arguments;
     if (time_s) check(cli::check_number("--time", *time_s, cli::kTimeRange));
+    return {.clip = clip, .time_s = time_s, .morphs = morphs};
+}
+
+[[nodiscard]] inline cli::SceneChoice scene_choice(const SceneArguments& arguments) {
     return {.name = std::get<0>(arguments),
             .camera = std::get<2>(arguments),
             .light = std::get<3>(arguments),
             .words = std::get<1>(arguments),
-            .pose = {.clip = clip, .time_s = time_s, .morphs = morphs}};
+            .pose = pose_choice(std::get<4>(arguments))};
 }
 
 }  // namespace dermis::python

@@ -9,10 +9,11 @@ Python's lock, ends with Ctrl-C, and calls `progress` with the share that is don
 
 from dermis._dermis import Error
 from dermis._dermis import version as _version
+from dermis._exports import Exported, export
 from dermis._judge import (ClipComparison, Comparison, ciede2000, compare, flip, flip_map, max_abs_error, psnr_db, rel_mse,
                            rmse, ssim)
-from dermis._meshes import (Map, Mesh, bake_curvature, bake_gain, bake_kernel_size, bake_occlusion, bake_stretch,
-                            bake_thickness, load_mesh, scene_meshes)
+from dermis._meshes import (Map, Mesh, NormalMaps, bake_curvature, bake_gain, bake_kernel_size, bake_normals, bake_occlusion,
+                            bake_stretch, bake_thickness, load_mesh, scene_meshes)
 from dermis._pictures import (Picture, ReferencePicture, parameters, read_image, reference, render, scene_names,
                               subject_names, technique_names)
 from dermis._profiles import (GaussianFit, Profile, burley_profile, convert, gaussian_profile, profile, profile_names,
@@ -21,9 +22,9 @@ from dermis._tables import (ClosedForm, Table, bake_closed_form, bake_lut, bake_
 
 __version__ = _version().split()[-1]
 __all__ = [
-    "ClipComparison", "ClosedForm", "Comparison", "Error", "GaussianFit", "Map", "Mesh", "Picture", "Profile", "ReferencePicture",
-    "Table", "bake_closed_form", "bake_curvature", "bake_gain", "bake_kernel_size", "bake_lut", "bake_occlusion",
-    "bake_shadow", "bake_stretch", "bake_thickness", "bake_zh", "burley_profile", "ciede2000", "compare", "convert", "flip",
+    "ClipComparison", "ClosedForm", "Comparison", "Error", "Exported", "GaussianFit", "Map", "Mesh", "NormalMaps", "Picture", "Profile",
+    "ReferencePicture", "Table", "bake_closed_form", "bake_curvature", "bake_gain", "bake_kernel_size", "bake_lut", "bake_normals",
+    "bake_occlusion", "bake_shadow", "bake_stretch", "bake_thickness", "bake_zh", "burley_profile", "ciede2000", "compare", "convert", "export", "flip",
     "flip_map", "gaussian_profile", "load_mesh", "max_abs_error", "parameters", "profile", "profile_names",
     "psnr_db", "read_image", "read_table", "reference", "rel_mse", "render", "rmse", "scene_meshes", "scene_names",
     "skin_profile", "ssim", "subject_names", "table_profile", "technique_names",

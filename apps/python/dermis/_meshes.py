@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 from dermis import _dermis
 from dermis._profiles import Profile
-from dermis._words import given, text_path
+from dermis._words import given, text_path, whole, words
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     import numpy
     from numpy.typing import ArrayLike, NDArray
-    from dermis._words import Path
+    from dermis._words import Path, Words
 
 
 class Mesh:
@@ -231,3 +231,57 @@ def bake_occlusion(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, materia
     """Ambient visibility, 0 to 1, as `dermis bake occlusion`. max_mm: how far it looks in mm, 0 for no limit."""
     return _bake("occlusion", mesh, progress, size=size, gutter=gutter, material=material, uvs=uvs, unit_mm=unit_mm,
                  rays=rays, ray_size=ray_size, max_mm=max_mm)
+
+
+class NormalMaps:
+    """Mean normals of the skin over a UV atlas, in the scene's axes, rows from the top. Made by bake_normals()."""
+
+    __slots__ = ("_maps",)
+
+    def __init__(self, handle):
+        if not isinstance(handle, _dermis.NormalMaps):
+            raise TypeError("use bake_normals()")
+        self._maps = handle
+
+    @property
+    def red(self) -> NDArray[numpy.float32]:
+        """float32, size x size x 3: the mean of the normals, weighted by red's profile; shorter than 1."""
+        return self._maps.red
+
+    @property
+    def green(self) -> NDArray[numpy.float32]:
+        """float32, size x size x 3: the same of green; blue takes it too."""
+        return self._maps.green
+
+    @property
+    def uneven(self) -> NDArray[numpy.float32]:
+        """float32, size x size x 2: p and q of the spread [[1 + p, q], [q, 1 - p]] of red's normals around the mean."""
+        return self._maps.uneven
+
+    @property
+    def atlas_mesh(self) -> Mesh | None:
+        """The skin with the UVs of the maps as atlas_uvs; None where they are over the mesh's own UVs."""
+        handle = self._maps.atlas_mesh
+        return None if handle is None else Mesh._of(handle)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What limits the maps, a line each."""
+        return self._maps.warnings
+
+    def save(self, path: Path) -> None:
+        """Writes the files of `dermis bake normals ... -o PATH`: NAME_red and NAME_green, .exr or .png, with texts."""
+        _dermis.write_normals(self._maps, text_path(path))
+
+
+def bake_normals(mesh: Path, *, size: int=1024, profile: str | None=None, unit_mm: float | None=None, clip: str='',
+                 time: float | None=None, morph: Words=None,
+                 progress: Callable[[float], object] | None=None) -> NormalMaps:
+    """Mean of the normals that each colour's scattering covers, as `dermis bake normals`. mesh: a mesh file or a scene.
+
+    profile: a name (None: the scene's). unit_mm: of a mesh file. clip, time, morph: as of render().
+    """
+    if isinstance(profile, Profile):
+        raise TypeError("profile: give its name, or a CSV file of it")
+    options = given(size=whole(size, "size", -2**31, 2**31 - 1), profile=profile, unit_mm=unit_mm)
+    return NormalMaps(_dermis.bake_normals(text_path(mesh), (clip, time, words(morph, "morph")), options, progress))
