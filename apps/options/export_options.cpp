@@ -94,6 +94,16 @@ Exported in_folder(const ExportOptions& options, std::vector<File> files) {
     return made;
 }
 
+// Functions, or the profile of an engine's own skin.
+Result<Exported> export_profile(const ExportOptions& options) {
+    DERMIS_TRY_ASSIGN(const Profile profile,
+                      find_profile(options.profile.empty() ? kExportProfile : options.profile));
+    if (!options.native) return export_texts(options, profile);
+    DERMIS_TRY_ASSIGN(std::vector<PackageFile> files,
+                      make_native_profile(options.engine, profile, built_in_package_templates()));
+    return in_folder(options, std::move(files));
+}
+
 Result<Exported> export_package(const ExportOptions& options) {
     ExportedHead head = {.profile = options.profile.empty() ? kExportProfile : options.profile};
     if (has_scene(options)) {
@@ -157,23 +167,11 @@ Result<FileUse> ExportOptions::files() const {
 }
 
 Result<Exported> make_export(const ExportOptions& options) {
-    Result<Exported> made = Error{"stopped"};
-    if (options.web) {
-        made = export_web(options);
-    } else if (!options.engine.empty() && !options.native) {
-        made = export_package(options);
-    } else {
-        DERMIS_TRY_ASSIGN(const Profile profile,
-                          find_profile(options.profile.empty() ? kExportProfile : options.profile));
-        if (options.native) {
-            DERMIS_TRY_ASSIGN(std::vector<PackageFile> files,
-                              make_native_profile(options.engine, profile, built_in_package_templates()));
-            made = in_folder(options, std::move(files));
-        } else {
-            made = export_texts(options, profile);
-        }
-    }
-    if (made) made->inputs.emplace_back(options.profile);
+    const bool is_package = !options.engine.empty() && !options.native;
+    DERMIS_TRY_ASSIGN(Exported made, options.web  ? export_web(options)
+                                     : is_package ? export_package(options)
+                                                  : export_profile(options));
+    made.inputs.emplace_back(options.profile);
     return made;
 }
 

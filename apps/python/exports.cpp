@@ -12,7 +12,7 @@
 namespace dermis::python {
 namespace {
 
-py::tuple export_files(const SceneArguments& scene, const py::dict& given, const py::object& progress) {
+py::tuple export_files(const SceneArguments& scene, const py::dict& given) {
     cli::ExportOptions options{.scene = scene_choice(scene)};
     take(options.output, given, "output");
     take(options.engine, given, "engine");
@@ -23,22 +23,21 @@ py::tuple export_files(const SceneArguments& scene, const py::dict& given, const
     take(options.native, given, "native");
     take(options.scene.unit_mm, given, "unit_mm");
     check(check_outputs(value_of(options.files())));
-    const cli::Exported made = watched(progress, [&](Watch&) { return cli::make_export(options); });
+    const cli::Exported made = watched(py::none(), [&](Watch&) { return cli::make_export(options); });
     check(unlocked([&] { return cli::write_export(made); }));
     std::vector<std::string> paths;
     for (const PackageFile& file : made.files) paths.push_back(file.path);
     return py::make_tuple(paths, made.warnings);
 }
 
-cli::MadeNormals bake_normals(const std::string& mesh, const PoseArguments& pose, const py::dict& given,
-                              const py::object& progress) {
+cli::MadeNormals bake_normals(const std::string& mesh, const PoseArguments& pose, const py::dict& given) {
     cli::NormalsOptions options{.mesh = mesh, .pose = pose_choice(pose)};
     take(options.profile, given, "profile");
     take(options.size, given, "size");
     take(options.unit_mm, given, "unit_mm");
     if (given.contains("unit_mm")) check(cli::check_number("--unit-mm", options.unit_mm, cli::kUnitRangeMm));
     check(cli::check_number("--size", options.size, cli::kNormalsSizeRange));
-    return watched(progress, [&](Watch&) { return options.make(FileUse{}); });
+    return watched(py::none(), [&](Watch&) { return options.make(FileUse{}); });
 }
 
 // Parts first .. first + count - 1 of each texel, -1 to 1.
@@ -51,9 +50,8 @@ py::array parts_of(const cli::MadeNormals& made, bool red, size_t first, size_t 
 }
 
 py::array uneven_of(const cli::MadeNormals& made) {
-    const py::object both = py::module_::import("numpy").attr("concatenate")(
+    return py::module_::import("numpy").attr("concatenate")(
         py::make_tuple(parts_of(made, true, 3, 1), parts_of(made, false, 3, 1)), 2);
-    return both;
 }
 
 void write_normal_files(const cli::MadeNormals& made, const std::string& path) {

@@ -10,7 +10,7 @@ from dermis._profiles import Profile
 from dermis._words import given, scene_arguments, text_path
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Iterable
 
     from dermis._words import Path, Words
 
@@ -28,7 +28,7 @@ class Exported:
 def export(output: Path, scene: Path='', *, engine: str='', language: str='', functions: Iterable[str]=(),
            web: bool=False, native: bool=False, profile: str | None=None, unit_mm: float | None=None,
            camera: Words=None, light: Words=None, keys: Words=None, clip: str='', time: float | None=None,
-           morph: Words=None, progress: Callable[[float], object] | None=None) -> Exported:
+           morph: Words=None) -> Exported:
     """A skin for other programs, as `dermis export`. One of engine, language and web.
 
     output: a folder; with one language a file. engine: unity, unreal, godot, three or babylon: a package, with a
@@ -42,6 +42,5 @@ def export(output: Path, scene: Path='', *, engine: str='', language: str='', fu
     names = [functions] if isinstance(functions, str) else list(functions)
     options = given(output=text_path(output), engine=engine, language=language, functions=",".join(names), web=web,
                     native=native, profile=profile, unit_mm=unit_mm)
-    files, warnings = _dermis.export_files(scene_arguments(scene, keys, camera, light, clip, time, morph), options,
-                                           progress)
+    files, warnings = _dermis.export_files(scene_arguments(scene, keys, camera, light, clip, time, morph), options)
     return Exported(files, warnings)

@@ -275,8 +275,7 @@ class NormalMaps:
 
 
 def bake_normals(mesh: Path, *, size: int=1024, profile: str | None=None, unit_mm: float | None=None, clip: str='',
-                 time: float | None=None, morph: Words=None,
-                 progress: Callable[[float], object] | None=None) -> NormalMaps:
+                 time: float | None=None, morph: Words=None) -> NormalMaps:
     """Mean of the normals that each colour's scattering covers, as `dermis bake normals`. mesh: a mesh file or a scene.
 
     profile: a name (None: the scene's). unit_mm: of a mesh file. clip, time, morph: as of render().
@@ -284,4 +283,4 @@ def bake_normals(mesh: Path, *, size: int=1024, profile: str | None=None, unit_m
     if isinstance(profile, Profile):
         raise TypeError("profile: give its name, or a CSV file of it")
     options = given(size=whole(size, "size", -2**31, 2**31 - 1), profile=profile, unit_mm=unit_mm)
-    return NormalMaps(_dermis.bake_normals(text_path(mesh), (clip, time, words(morph, "morph")), options, progress))
+    return NormalMaps(_dermis.bake_normals(text_path(mesh), (clip, time, words(morph, "morph")), options))
