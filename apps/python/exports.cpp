@@ -22,6 +22,8 @@ py::tuple export_files(const SceneArguments& scene, const py::dict& given) {
     take(options.web, given, "web");
     take(options.native, given, "native");
     take(options.scene.unit_mm, given, "unit_mm");
+    if (given.contains("unit_mm"))
+        check(cli::check_number("--unit-mm", options.scene.unit_mm, cli::kUnitRangeMm));
     check(check_outputs(value_of(options.files())));
     const cli::Exported made = watched(py::none(), [&](Watch&) { return cli::make_export(options); });
     check(unlocked([&] { return cli::write_export(made); }));
@@ -55,8 +57,10 @@ py::array uneven_of(const cli::MadeNormals& made) {
 }
 
 void write_normal_files(const cli::MadeNormals& made, const std::string& path) {
-    cli::NormalsOptions options{.mesh = made.origin.mesh};
-    check(check_outputs(value_of(options.files(path))));
+    const cli::NormalsOptions options{.mesh = made.origin.mesh, .profile = made.origin.profile_name};
+    const Result<FileUse> files = options.files(path);
+    check(check_outputs(value_of(files)));
+    check(cli::keep_scene_files(made.scene, files));
     check(unlocked([&]() -> Result<void> {
         DERMIS_TRY(cli::write_normals(path, made));
         return made.layout.is_atlas() ? write_glb(cli::atlas_mesh_path(path), skin_with_atlas(made.scene))

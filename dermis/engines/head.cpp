@@ -317,7 +317,8 @@ Image in_two_bytes(const Image& values) {
     return bytes;
 }
 
-// The renderer's own three textures: head.h. Red has 10 bits: with 8 the captured share is lower by .02.
+// The renderer's own three textures: head.h. Red has 10 bits: with 8 three.js loses .01 of the captured
+// share.
 Result<json> add_normals(const DiffusedNormals& normals, bool red_in_halves, Head& head) {
     const std::vector<gpu::TextureData> textures = diffused_normals_textures(normals);
     Image green(normals.size, normals.size, 3, PixelFormat::u8),

@@ -72,6 +72,15 @@ class BakedNormals(TestCase):
         self.assert_error(self.program_error("bake", "normals", "spheres", "--size", 3, *out), dermis.bake_normals, "spheres", size=3)
         self.assert_error(self.program_error("bake", "normals", "spheres", "--unit-mm", 10, *out), dermis.bake_normals, "spheres",
                           unit_mm=10)
+        self.assert_error(self.program_error("export", SPHERE, "--engine", "three", "--unit-mm", 0, *out), dermis.export,
+                          self.folder / "package", SPHERE, engine="three", unit_mm=0)
+        scene = self.folder / "mine.toml"
+        scene.write_bytes(SPHERE.read_bytes())
+        linked = self.folder / "maps_red.exr"
+        linked.symlink_to(scene)
+        with self.assertRaises(dermis.Error):
+            dermis.bake_normals(scene, size=64).save(self.folder / "maps.exr")
+        self.assertEqual(scene.read_bytes(), SPHERE.read_bytes())
         with self.assertRaisesRegex(dermis.Error, "exr or .png"):
             dermis.bake_normals(SPHERE, size=64).save(self.folder / "x.tga")
 
