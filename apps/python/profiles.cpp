@@ -134,6 +134,7 @@ void add_profiles(py::module_& module) {
         .def_property_readonly("model", [](const Profile& profile) { return model_name(profile); });
     module.def("profile_names", profile_names);
     module.def("find_profile", [](const std::string& name) { return value_of(find_profile(name)); });
+    module.def("keep_profile", keep_profile);
     module.def("profile_of_gaussians", of_gaussians);
     module.def("profile_of_burley", of_burley);
     module.def("profile_of_table", of_table);

@@ -1,7 +1,12 @@
 #include "dermis/optics/presets.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <functional>
+#include <iterator>
+#include <map>
+#include <mutex>
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
@@ -16,6 +21,21 @@
 
 namespace dermis::inline optics {
 namespace {
+
+constexpr std::string_view kKeptPrefix = "object:";
+
+struct KeptProfiles {
+    std::mutex mutex;
+    std::map<std::string, Profile, std::less<>> by_name;
+};
+KeptProfiles& kept_profiles() {
+    static KeptProfiles kept;
+    return kept;
+}
+
+bool is_plain(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
+}
 
 Profile gpu_gems_3() {
     return {"gpu_gems_3", "d'Eon, Luebke 2007, GPU Gems 3, section 14.4", gpu_gems_3_skin()};
@@ -165,9 +185,24 @@ bool is_profile_file(std::string_view name) {
     return extension == ".csv" || extension == ".mtlx" || extension == ".glb" || extension == ".gltf";
 }
 
+std::string keep_profile(const Profile& profile) {
+    std::string name = std::string(kKeptPrefix);
+    std::ranges::copy_if(profile.name, std::back_inserter(name), is_plain);
+    name += ":" + hash_of(profile);
+    KeptProfiles& kept = kept_profiles();
+    const std::scoped_lock lock(kept.mutex);
+    kept.by_name.try_emplace(name, profile);
+    return name;
+}
+
 Result<Profile> find_profile(std::string_view name) {
     for (const Preset& preset : presets())
         if (preset.name == name) return preset.make();
+    if (name.starts_with(kKeptPrefix)) {
+        KeptProfiles& kept = kept_profiles();
+        const std::scoped_lock lock(kept.mutex);
+        if (const auto found = kept.by_name.find(name); found != kept.by_name.end()) return found->second;
+    }
     if (name.starts_with("burley:")) return burley_from_lengths(name);
     if (is_skin_model(name)) {
         DERMIS_TRY_ASSIGN(const SkinModel model, parse_skin_model(name));

@@ -19,6 +19,10 @@ namespace dermis::inline optics {
 /// closest known one; files as the functions that read them.
 [[nodiscard]] Result<Profile> find_profile(std::string_view name);
 
+/// Keeps a profile as long as the process runs. Returns the name by which find_profile finds it, one for each
+/// content: "object:" with the profile's name, as far as it is plain, and a hash. Safe from any thread.
+[[nodiscard]] std::string keep_profile(const Profile& profile);
+
 /// Whether find_profile takes the name for a file's path.
 [[nodiscard]] bool is_profile_file(std::string_view name);
 

@@ -45,7 +45,7 @@ class Exports(TestCase):
             self.assert_error(self.program_error("export", *words, "-o", out), dermis.export, out, **options)
             self.assertFalse(out.exists())
         with self.assertRaisesRegex(TypeError, "profile"):
-            dermis.export(out, engine="three", profile=dermis.profile("gpu_gems_3"))
+            dermis.export(out, engine="three", profile=3)
 
 
 class BakedNormals(TestCase):

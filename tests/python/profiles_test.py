@@ -60,6 +60,25 @@ class Profiles(TestCase):
         path.write_text(skin.csv(r_mm))
         numpy.testing.assert_allclose(dermis.profile(str(path)).cdf(1.5), skin.cdf(1.5))
 
+    def test_an_object_is_taken_where_a_name_is(self):
+        own = dermis.gaussian_profile([.1, 2], [(.2, .6, .9), (.8, .4, .1)], name="my skin, 2")
+        path = self.folder / "own.csv"
+        path.write_text(own.csv([.1, 1]))
+        settings = {"size": 8, "samples": 4, "shadows": "all"}
+        by_object, by_file, other = (dermis.reference("spheres", profile=profile, **settings).radiance
+                                     for profile in (own, str(path), own.scaled(4)))
+        numpy.testing.assert_array_equal(by_object, by_file)
+        self.assertGreater(abs(by_object - other).max(), .01)
+        drawn = [dermis.render("spheres", "preintegrated", size=32, keys={"skin.profile": profile}).radiance
+                 for profile in (own, str(path), own.scaled(4))]
+        numpy.testing.assert_array_equal(drawn[0], drawn[1])
+        self.assertGreater(abs(drawn[0] - drawn[2]).max(), .01)
+        for profile, file in ((own, "own.hlsl"), (path, "file.hlsl")):
+            dermis.export(self.folder / file, language="hlsl", profile=profile)
+        self.assertIn("my skin", (self.folder / "own.hlsl").read_text())
+        with self.assertRaisesRegex(TypeError, "must be a Profile or its name"):
+            dermis.reference("spheres", profile=3)
+
     def test_lengths_scale(self):
         skin = dermis.profile("jensen_skin2")
         numpy.testing.assert_allclose(skin.scaled(10).mean_radius_mm, 10 * skin.mean_radius_mm)

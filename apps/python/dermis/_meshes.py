@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from dermis import _dermis
-from dermis._profiles import Profile
-from dermis._words import given, text_path, whole, words
+from dermis._words import given, profile_text, text_path, whole, words
 
 if TYPE_CHECKING:
+    from dermis._profiles import Profile
     from collections.abc import Callable
     import numpy
     from numpy.typing import ArrayLike, NDArray
@@ -195,26 +195,26 @@ def bake_thickness(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, materia
 def bake_kernel_size(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: str | None=None,
                      uvs: str | None=None, unit_mm: float | None=None,
                      rays: int=32, ray_size: int=1024, max_mm: float=200.0,
-                     cone_rad: float=0.7853982, profile: str | None=None,
+                     cone_rad: float=0.7853982, profile: Profile | str | None=None,
                      progress: Callable[[float], object] | None=None) -> Map:
-    """Kernel size for texture_space, 0 to 0.996, as `dermis bake kernel-size`. profile: a name (None: the scene's)."""
-    if isinstance(profile, Profile):
-        raise TypeError("profile: give its name, or a CSV file of it")
+    """Kernel size for texture_space, 0 to 0.996, as `dermis bake kernel-size`.
+
+    profile: a Profile or its name (None: the scene's).
+    """
     return _bake("kernel-size", mesh, progress, size=size, gutter=gutter, material=material, uvs=uvs, unit_mm=unit_mm,
-                 rays=rays, ray_size=ray_size, max_mm=max_mm, cone_rad=cone_rad, profile=profile)
+                 rays=rays, ray_size=ray_size, max_mm=max_mm, cone_rad=cone_rad, profile=profile_text(profile))
 
 
 def bake_gain(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: str | None=None,
-              uvs: str | None=None, unit_mm: float | None=None, walks_per_mm2: float=32.0, profile: str | None=None,
+              uvs: str | None=None, unit_mm: float | None=None, walks_per_mm2: float=32.0,
+              profile: Profile | str | None=None,
               progress: Callable[[float], object] | None=None) -> Map:
     """Uniform light that each place returns, over flat skin, of each channel, as `dermis bake gain`.
 
-    walks_per_mm2: random walks that start on each mm^2 of the skin. profile: a name (None: the scene's).
+    walks_per_mm2: random walks that start on each mm^2 of the skin. profile: a Profile or its name (None: the scene's).
     """
-    if isinstance(profile, Profile):
-        raise TypeError("profile: give its name, or a CSV file of it")
     return _bake("gain", mesh, progress, size=size, gutter=gutter, material=material, uvs=uvs, unit_mm=unit_mm,
-                 walks_per_mm2=walks_per_mm2, profile=profile)
+                 walks_per_mm2=walks_per_mm2, profile=profile_text(profile))
 
 
 def bake_stretch(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: str | None=None,
@@ -274,13 +274,12 @@ class NormalMaps:
         _dermis.write_normals(self._maps, text_path(path))
 
 
-def bake_normals(mesh: Path, *, size: int=1024, profile: str | None=None, unit_mm: float | None=None, clip: str='',
+def bake_normals(mesh: Path, *, size: int=1024, profile: Profile | str | None=None,
+                 unit_mm: float | None=None, clip: str='',
                  time: float | None=None, morph: Words=None) -> NormalMaps:
     """Mean of the normals that each colour's scattering covers, as `dermis bake normals`. mesh: a mesh file or a scene.
 
-    profile: a name (None: the scene's). unit_mm: of a mesh file. clip, time, morph: as of render().
+    profile: a Profile or its name (None: the scene's). unit_mm: of a mesh file. clip, time, morph: as of render().
     """
-    if isinstance(profile, Profile):
-        raise TypeError("profile: give its name, or a CSV file of it")
-    options = given(size=whole(size, "size", -2**31, 2**31 - 1), profile=profile, unit_mm=unit_mm)
+    options = given(size=whole(size, "size", -2**31, 2**31 - 1), profile=profile_text(profile), unit_mm=unit_mm)
     return NormalMaps(_dermis.bake_normals(text_path(mesh), (clip, time, words(morph, "morph")), options))

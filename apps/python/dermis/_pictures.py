@@ -6,9 +6,10 @@ import json
 from typing import TYPE_CHECKING
 
 from dermis import _dermis
-from dermis._words import given, scene_arguments, size_text, text_path, whole, words
+from dermis._words import given, profile_text, scene_arguments, size_text, text_path, whole, words
 
 if TYPE_CHECKING:
+    from dermis._profiles import Profile
     from collections.abc import Callable
     import numpy
     from numpy.typing import NDArray
@@ -82,8 +83,8 @@ def render(scene: Path='bust', technique: str='', *, settings: Words=None, size:
     what --set takes; parameters() lists them. size: pixels, "1024x768", (1024, 768) or 512. view: final,
     diffuse, specular, normal, curvature, ... samples: 1 or 4 a pixel. bits: 8 or 16 of the PNG. camera: {key:
     value} of --camera, such as {"yaw_deg": 30, "distance_mm": 600}. light: the same of --light. keys: {key:
-    value} of --scene, such as {"light.key.intensity": 2}. clip: an animation of the mesh file, and time in it in
-    s. morph: {target: weight} of --morph, such as {"jawOpen": 0.6}. Mappings may be the command line's text
+    value} of --scene, such as {"light.key.intensity": 2} or {"skin.profile": a Profile}. clip: an animation of the
+    mesh file, and time in it in s. morph: {target: weight} of --morph, such as {"jawOpen": 0.6}. Mappings may be the command line's text
     instead. frames: a list of that many pictures of the clip, fps of them in a second, from time on; lights and
     camera stay. turn: angle in degrees that the camera turns over all frames; without fps the pose stays. device:
     text in the Vulkan device's name.
@@ -164,7 +165,8 @@ class ReferencePicture:
 
 
 def reference(scene: Path, *, size: Size='512x512', integrator: str='surface', samples: int | None=None,
-              noise: float | None=None, seed: int=1, probes: int=16, profile: str | None=None, medium: Words=None,
+              noise: float | None=None, seed: int=1, probes: int | None=None,
+              profile: Profile | str | None=None, medium: Words=None,
               width_scale: float=1.0, normalisation: str='area', cavities: str='flesh', filter: str='box',
               shadows: str='scene', ambient: str='traced', specular: str='ggx', penumbra_mm: float=2.0,
               camera: Words=None, light: Words=None, keys: Words=None,
@@ -173,15 +175,16 @@ def reference(scene: Path, *, size: Size='512x512', integrator: str='surface', s
     """The reference of a scene, as `dermis reference`. The same seed gives the same picture.
 
     integrator: surface, walk, lambert. samples: at most so many a pixel (64; with noise as many as it needs).
-    noise: stop at this relative error, such as 0.01. probes: for each sample, even; 6 at least, of walk 2.
-    profile: a name instead of the scene's. medium: for walk, {"sigma_s": (r, g, b), "sigma_a": (r, g, b),
-    "g": 0, "eta": 1.4} in 1/mm. width_scale: factor on the lengths of profile or medium, 0 is Lambert.
-    penumbra_mm: width of the key light's shadow edge. camera, light, keys, clip, time, morph: as in render().
+    noise: stop at this relative error, such as 0.01. probes: for each sample; of walk walks (3, 16).
+    profile: a Profile or its name, instead of the scene's.
+    medium: for walk, {"sigma_s": (r, g, b), "sigma_a": (r, g, b), "g": 0, "eta": 1.4} in 1/mm.
+    width_scale: factor on the lengths of profile or medium, 0 is Lambert. penumbra_mm: width of the key light's shadow edge. camera, light, keys, clip, time, morph: as in render().
     """
-    options = given(size=size_text(size), integrator=integrator, noise=noise, profile=profile,
+    options = given(size=size_text(size), integrator=integrator, noise=noise, profile=profile_text(profile),
                     width_scale=width_scale, normalisation=normalisation, cavities=cavities, filter=filter,
                     shadows=shadows, ambient=ambient, specular=specular, penumbra_mm=penumbra_mm,
-                    seed=whole(seed, "seed", 0, 2**32 - 1), probes=whole(probes, "probes", -2**31, 2**31 - 1),
+                    seed=whole(seed, "seed", 0, 2**32 - 1),
+                    probes=None if probes is None else whole(probes, "probes", -2**31, 2**31 - 1),
                     samples=None if samples is None else whole(samples, "samples", -2**31, 2**31 - 1),
                     medium=None if medium is None else " ".join(words(medium, "medium")))
     arguments = scene_arguments(scene, keys, camera, light, clip, time, morph)

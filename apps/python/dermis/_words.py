@@ -31,6 +31,17 @@ def number_text(value):
         raise TypeError(f"{value!r}: must be a text, a number, a bool or several numbers") from None
 
 
+def profile_text(value, option="profile"):
+    """A name, or that of a Profile; None stays."""
+    if value is None:
+        return value
+    if isinstance(value, (str, os.PathLike)):
+        return text_path(value)
+    if hasattr(value, "_profile"):
+        return _dermis.keep_profile(value._profile)
+    raise TypeError(f"{option}: must be a Profile or its name")
+
+
 def words(values, option):
     """KEY=VALUE texts of a mapping, or the texts of a list."""
     if values is None:
@@ -38,11 +49,15 @@ def words(values, option):
     if isinstance(values, str):
         return [values]
     if hasattr(values, "items"):
-        return [f"{key}={number_text(value)}" for key, value in values.items()]
+        return [f"{key}={_value_text(value, f'{option}: {key}')}" for key, value in values.items()]
     texts = list(values)
     if not all(isinstance(text, str) for text in texts):
         raise TypeError(f"{option}: must be a mapping, or texts KEY=VALUE")
     return texts
+
+
+def _value_text(value, option):
+    return profile_text(value, option) if hasattr(value, "_profile") else number_text(value)
 
 
 def scene_arguments(scene, keys, camera, light, clip, time, morph):
