@@ -62,7 +62,10 @@ int main(int argc, char** argv) {
     const Result<EffectReference> made = make_effect_reference(*scene, settings);
     if (!made) return fail(made.error().message);
     const double time_s = processor_s() - start, ratio = made->noise.noise_rms / made->noise.effect_rms;
-    std::printf("%s, %d x %d, %d samples of %d probes: noise %.3f of the effect, %.1f s; %.1f s for %.1f\n",
-                name.c_str(), size, size, made->samples, settings.reference.probes, ratio, time_s,
-                time_s * ratio * ratio / (kWantedNoise * kWantedNoise), kWantedNoise);
+    std::printf(
+        "%s, %d x %d, %d samples of %d probes: noise %.3f of the effect, %.1f s of processor time; samples "
+        "%.1f s, %.1f s for %.1f\n",
+        name.c_str(), size, size, made->samples, settings.reference.probes, ratio, time_s,
+        made->time_ms * 1e-3, made->time_ms * 1e-3 * ratio * ratio / (kWantedNoise * kWantedNoise),
+        kWantedNoise);
 }

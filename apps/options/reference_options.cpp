@@ -10,7 +10,7 @@
 namespace dermis::cli {
 namespace {
 
-constexpr NumberRange kSamplesRange = {2, kMostSamples}, kProbesRange = {2, 65536};
+constexpr NumberRange kSamplesRange = {2, kMostSamples}, kProbesRange = {1, 65536};
 
 constexpr int kSamples = 64;
 
@@ -96,7 +96,8 @@ Result<ReferenceSettings> ReferenceOptions::settings() const {
     chosen.lighting.penumbra_mm = penumbra_mm;
     if (noise != 0) chosen.noise = noise;
     for (const Result<void>& in_range :
-         {check_number("--samples", passes, kSamplesRange), check_number("--probes", probes, kProbesRange)})
+         {check_number("--samples", passes, kSamplesRange),
+          probes == 0 ? Result<void>{} : check_number("--probes", probes, kProbesRange)})
         if (!in_range) return in_range.error();
     DERMIS_TRY_ASSIGN(const Size pixels, parse_size(size));
     chosen.width = pixels.width;
@@ -151,7 +152,7 @@ PictureFacts ReferenceOptions::facts(const ReferenceSettings& settings, const Sc
     const nlohmann::ordered_json facts_json = {
         {"scene", scene.name},       {"integrator", integrator},
         {"width", settings.width},   {"height", settings.height},
-        {"passes", nullptr},         {"probes", settings.probes},
+        {"passes", nullptr},         {"probes", probes_of(settings)},
         {"seed", settings.seed},     {"filter", filter},
         {"shadows", shadows},        {"ambient", ambient},
         {"specular", specular},      {"normalisation", normalisation},
@@ -185,10 +186,8 @@ void ReferenceOptions::add_to(Command& command) {
         .add_option("--seed", seed, {0, 4294967295},
                     "seed of the random numbers; the same seed gives the same picture")
         ->capture_default_str();
-    command
-        .add_option("--probes", probes, kProbesRange,
-                    "probes (6 at least) or walks for each sample, an even number")
-        ->capture_default_str();
+    command.add_option("--probes", probes, kProbesRange,
+                       "probes or walks for each sample; without it 3 probes or 16 walks");
     command.add_option("--profile", profile, "diffusion profile instead of the scene's");
     command.add_option(
         "--medium", medium,

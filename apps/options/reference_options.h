@@ -17,7 +17,7 @@ struct ReferenceOptions {
     std::string integrator = "surface", filter = "box", shadows = "scene", ambient = "traced",
                 specular = "ggx";
     std::string normalisation = "area", cavities = "flesh", medium;
-    int samples = 0, probes = 16;  // samples: 0 is 64, or as many as the noise takes
+    int samples = 0, probes = 0;  // 0: 64 samples or as many as the noise takes; 3 probes or 16 walks
     uint32_t seed = 1;
     double noise = 0, width_scale = 1;
     float penumbra_mm = 2;

@@ -36,10 +36,9 @@ struct ComparisonSettings {
     int grid = 6;         ///< both sides take grid x grid points of a pixel; grid_of_size()
     double noise = 0.25;  ///< of the effect's RMS at which the reference is fine enough
     int samples = 2048;   ///< of the reference a pixel, at most
-    /// Probes per sample of `surface`. The bias of its quotient is below a hundredth of the effect.
-    int probes = 32;
-    int walks = 16;  ///< per sample of `walk`, which has no bias
-    int frames = 5;  ///< timed ones, after one that compiles; 0: none are
+    int probes = 12;      ///< a sample of `surface`
+    int walks = 16;       ///< a sample of `walk`
+    int frames = 5;       ///< timed ones, after one that compiles; 0: none are
     /// Integrator, lighting and seed of the reference. Its size is the comparison's. The defaults are
     /// for a reference that is compared with one frame without multisampling.
     ReferenceSettings reference;

@@ -47,7 +47,7 @@ Result<ReferencePicture> unscattered(const Scene& scene, const ReferenceSettings
                                      .height = effect.height,
                                      .samples = std::max(cells, 2),
                                      .seed = hash_u32(effect.seed, half),
-                                     .probes = 2 * std::max(kLightPoints / (2 * cells), 1),
+                                     .probes = std::max(kLightPoints / cells, 1),
                                      .cavities = effect.cavities,
                                      .filter = PixelFilter::grid,
                                      .grid = effect.grid,

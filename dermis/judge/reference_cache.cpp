@@ -11,7 +11,7 @@ namespace {
 
 void add(Hasher& hasher, const ReferenceSettings& s) {
     hasher.add(s.integrator).add(s.width).add(s.height).add(s.samples).add(s.noise.value_or(0)).add(s.seed);
-    hasher.add(s.probes).add(s.width_scale).add(s.normalisation).add(s.cavities).add(s.filter);
+    hasher.add(probes_of(s)).add(s.width_scale).add(s.normalisation).add(s.cavities).add(s.filter);
     hasher.add(s.filter == PixelFilter::grid ? s.grid : 0);
     hasher.add(s.lighting.shadows).add(s.lighting.ambient).add(s.lighting.specular);
     hasher.add(s.lighting.penumbra_mm).add(s.lighting.entry_eta).add(s.entry);

@@ -76,11 +76,12 @@ EnvironmentSampler::Sample EnvironmentSampler::sample(Vec2 u) const {
     const auto width = size_t(panorama_.width);
     // The remainder of u.x within the texel's share is uniform again.
     const float across = share > 0 ? std::clamp(float(u.x - below) / share, 0.0f, 1.0f) : 0.5f;
-    const float uv_x = (float(texel % width) + across) / float(panorama_.width);
-    const float uv_y = (float(texel / width) + u.y) / float(panorama_.height);
+    const Vec2 place = {(float(texel % width) + across) / float(panorama_.width),
+                        (float(texel / width) + u.y) / float(panorama_.height)};
     const float texels = float(panorama_.pixel_count());
-    return {.direction_world = to_world(panorama_direction(uv_x, uv_y)),
-            .density = share * texels / uv_solid_angle(uv_y)};
+    return {.direction_world = to_world(panorama_direction(place.x, place.y)),
+            .place = place,
+            .density = share * texels / uv_solid_angle(place.y)};
 }
 
 float EnvironmentSampler::density_at(Vec2 place) const {

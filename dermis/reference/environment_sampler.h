@@ -26,6 +26,7 @@ class EnvironmentSampler {
 
     struct Sample {
         Vec3 direction_world;
+        Vec2 place;         ///< of that direction, as place() has it
         float density = 0;  ///< per steradian
     };
     /// A texel by its share of the light, then evenly within it. Not when dark().

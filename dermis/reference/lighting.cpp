@@ -138,19 +138,28 @@ float Lighting::diffuse_exit(const ShadingPoint& point, Vec3 to_eye) const {
     return not_reflected(terms.x, terms.y, point.f0);
 }
 
-Vec3 Lighting::environment_irradiance(const Receiver& receiver, const LightingRandom& random) const {
+LightingChoice Lighting::choose(const LightingRandom& random) const {
+    LightingChoice choice{random.penumbra, random.environment, std::nullopt};
+    if (settings_.ambient == AmbientModel::traced && !environment_.dark() &&
+        random.environment_choice >= 0.5f)
+        choice.bright = environment_.sample(random.environment);
+    return choice;
+}
+
+Vec3 Lighting::environment_irradiance(const Receiver& receiver, const LightingChoice& choice) const {
     if (environment_.dark()) return {};
     if (settings_.ambient == AmbientModel::renderer)
         return environment_.harmonic_irradiance(receiver.n) * (receiver.occlusion * harmonic_entry_);
     // One direction from an even mixture of the cosine lobe and the bright parts: the balance heuristic of
     // Veach 1997 for one sample.
-    const Vec3 direction = random.environment_choice < 0.5f
-                               ? frame_of(receiver.n).to_world(sample_cosine_hemisphere(random.environment))
-                               : environment_.sample(random.environment).direction_world;
+    const Vec3 direction = choice.bright
+                               ? choice.bright->direction_world
+                               : frame_of(receiver.n).to_world(sample_cosine_hemisphere(choice.hemisphere));
     const float cosine = dot(receiver.n, direction);
     if (cosine <= 0) return {};
-    const Vec2 place = environment_.place(direction);
-    const float density = 0.5f * (cosine / kPi + environment_.density_at(place));
+    const Vec2 place = choice.bright ? choice.bright->place : environment_.place(direction);
+    const float bright_density = choice.bright ? choice.bright->density : environment_.density_at(place);
+    const float density = 0.5f * (cosine / kPi + bright_density);
     const float offset_mm = 10 * rays_.epsilon_mm();
     const Vec3 through = transmittance({.origin_mm = receiver.p_smooth_mm + receiver.n_geometry * offset_mm,
                                         .direction = direction,
@@ -159,17 +168,17 @@ Vec3 Lighting::environment_irradiance(const Receiver& receiver, const LightingRa
     return through * environment_.radiance_at(place) * (cosine * entry(receiver, cosine) / density);
 }
 
-Vec3 Lighting::irradiance(const Receiver& receiver, const LightingRandom& random) const {
+Vec3 Lighting::irradiance(const Receiver& receiver, const LightingChoice& choice) const {
     Vec3 sum;
     for (size_t light = 0; light < scene_.lights.size(); ++light) {
         const LightArrival arrival = light_at(scene_.lights[light], receiver.p_smooth_mm);
         const float cosine = dot(receiver.n, arrival.to_light);
         if (cosine <= 0 || is_black(arrival.irradiance_linear)) continue;
         const Vec3 visible =
-            light_visibility(light, receiver, arrival.to_light, arrival.distance_mm, random.penumbra);
+            light_visibility(light, receiver, arrival.to_light, arrival.distance_mm, choice.penumbra);
         sum += arrival.irradiance_linear * visible * (cosine * entry(receiver, cosine));
     }
-    return sum + environment_irradiance(receiver, random);
+    return sum + environment_irradiance(receiver, choice);
 }
 
 Vec3 Lighting::environment_reflection(const ShadingPoint& point, Vec3 to_eye, Vec2 u) const {

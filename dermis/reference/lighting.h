@@ -42,6 +42,12 @@ struct LightingRandom {
     float environment_choice = 0;
 };
 
+/// What they choose of the lights, for several receivers alike.
+struct LightingChoice {
+    Vec2 penumbra, hemisphere;
+    std::optional<EnvironmentSampler::Sample> bright;  ///< else a direction of the receiver's hemisphere
+};
+
 /// Where light is received; normals are unit.
 struct Receiver {
     Vec3 p_smooth_mm;
@@ -74,8 +80,9 @@ class Lighting {
     /// Where a probe or a walk meets skin.
     [[nodiscard]] Receiver skin_receiver(const SurfaceAttributes& surface, const RayHit& hit) const;
 
+    [[nodiscard]] LightingChoice choose(const LightingRandom& random) const;
     /// An unbiased estimate of the irradiance, linear.
-    [[nodiscard]] Vec3 irradiance(const Receiver& receiver, const LightingRandom& random) const;
+    [[nodiscard]] Vec3 irradiance(const Receiver& receiver, const LightingChoice& choice) const;
     /// Whether the irradiance has no noise: no penumbra, and no environment to trace.
     [[nodiscard]] bool is_exact() const {
         return settings_.penumbra_mm == 0 &&
@@ -102,7 +109,7 @@ class Lighting {
     [[nodiscard]] float entry(const Receiver& receiver, float cosine) const;
     [[nodiscard]] Vec3 light_visibility(size_t light, const Receiver& receiver, Vec3 to_light,
                                         float distance_mm, Vec2 u) const;
-    [[nodiscard]] Vec3 environment_irradiance(const Receiver& receiver, const LightingRandom& random) const;
+    [[nodiscard]] Vec3 environment_irradiance(const Receiver& receiver, const LightingChoice& choice) const;
     [[nodiscard]] Vec3 environment_reflection(const ShadingPoint& point, Vec3 to_eye, Vec2 u) const;
 
     const Scene& scene_;

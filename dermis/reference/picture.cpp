@@ -115,6 +115,11 @@ double share_done(const ReferenceSettings& settings, int pass, double error) {
 
 }  // namespace
 
+int probes_of(const ReferenceSettings& settings) {
+    if (settings.integrator != Integrator::surface) return settings.probes != 0 ? settings.probes : 16;
+    return std::max(settings.probes + kRuns - 1, kRuns) / kRuns * kRuns;
+}
+
 Result<void> check(const ReferenceSettings& s) {
     const auto out_of_range = [](std::string_view what, auto value, std::string_view range) {
         return Error{std::string(what) + " is " + std::to_string(value) + ", not within " +
@@ -126,9 +131,8 @@ Result<void> check(const ReferenceSettings& s) {
         return good.error();
     if (s.samples < 2 || s.samples > kMostSamples)
         return out_of_range("samples a pixel", s.samples, "2..65536");
-    const int least_probes = s.integrator == Integrator::surface ? kLeastProbes : 2;
-    if (s.probes < least_probes || s.probes > 65536 || s.probes % 2)
-        return out_of_range("probes", s.probes, std::to_string(least_probes) + "..65536, even");
+    const int probes = probes_of(s);
+    if (s.probes < 0 || probes > 65536) return out_of_range("probes", s.probes, "1..65536");
     if (!(s.width_scale >= 0 && s.width_scale <= 1000))
         return out_of_range("width scale", s.width_scale, "0..1000");
     if (s.noise && !(*s.noise > 0 && *s.noise < 1))

@@ -56,7 +56,7 @@ struct ReferenceSettings {
     int samples = 64;               ///< a pixel at most, 2..65536
     std::optional<double> noise;    ///< stop when the picture's relative error is at most this
     uint32_t seed = 1;
-    int probes = 16;         ///< probes or walks a sample, even: kLeastProbes..65536, of `walk` 2..65536
+    int probes = 0;          ///< probes or walks a sample, 1..65536; 0: probes_of()
     double width_scale = 1;  ///< stretches the profile or all lengths of the medium; 0 is lambert
     Normalisation normalisation = Normalisation::by_area;
     Cavities cavities = Cavities::flesh;
@@ -101,6 +101,10 @@ using ReferencePreview = std::function<void(const Image& radiance)>;
                                                         const ReferenceProgress& progress = {},
                                                         const std::atomic<bool>* stop = nullptr,
                                                         const ReferencePreview& preview = {});
+
+/// Probes or walks of a sample; of `lambert` the points of the lights. As set, or 3 of `surface` and 16; of
+/// `surface` a multiple of three, the next above what is set.
+[[nodiscard]] int probes_of(const ReferenceSettings& settings);
 
 /// What a reference says that was stopped while some pixels had no sample.
 [[nodiscard]] Error stopped_without_a_picture();

@@ -22,6 +22,13 @@ constexpr int kMostLayers = 16;
 // The relative error of the albedo is 0.05 % to 0.1 %: it would look like an effect of the whole picture.
 constexpr int kAlbedoWalks = 1'800'000;
 
+// Numbers of the lights that the light of a point without scattering takes in a picture: it has more noise
+// than a few probes of scattered light.
+constexpr int kLeastLights = 16;
+// Places in a pixel where the reflectance around it is found, and probes at each.
+constexpr uint32_t kReflectancePlaces = 4, kReflectanceStream = 3;
+constexpr int kReflectanceProbes = 16;
+
 // Surfaces other than skin are seen from both sides, as the renderer draws them.
 void face_the_eye(ShadingPoint& point, Vec3 to_eye) {
     if (point.material_class == MaterialClass::skin || dot(point.n_face, to_eye) >= 0) return;
@@ -139,13 +146,13 @@ PixelSampler::PixelSampler(const Scene& scene, const ReferenceSettings& settings
 }
 
 void PixelSampler::use_profile(const Profile& profile) {
-    surface_.emplace_back(
-        rays_, lighting_, ProfileSampler(profile, settings_.width_scale),
-        SurfaceIntegratorSettings{.probes = settings_.probes, .normalisation = settings_.normalisation});
+    surface_.emplace_back(rays_, lighting_, ProfileSampler(profile, settings_.width_scale),
+                          SurfaceIntegratorSettings{.probes_of_run = probes_of(settings_) / kRuns,
+                                                    .normalisation = settings_.normalisation});
 }
 
 void PixelSampler::use_medium(const ScatteringMedium& medium) {
-    WalkIntegratorSettings walk{.walks = settings_.probes};
+    WalkIntegratorSettings walk{.walks = probes_of(settings_)};
     if (settings_.normalisation == Normalisation::by_area) {
         walk.normalisation = albedo_of(medium);
         for (float Vec3::*c : {&Vec3::x, &Vec3::y, &Vec3::z})
@@ -182,6 +189,8 @@ Result<std::unique_ptr<PixelSampler>> PixelSampler::create(const Scene& scene,
             DERMIS_TRY_ASSIGN(const Profile profile, find_profile(name));
             sampler->use_profile(profile);
         }
+    const size_t pixels = size_t(settings.width) * size_t(settings.height);
+    sampler->reflectance_ = std::vector<std::atomic<float>>(3 * pixels * sampler->surface_.size());
     return sampler;
 }
 
@@ -215,41 +224,90 @@ UvFootprint PixelSampler::footprint(const Seen& seen, Vec3 p_mm) const {
     return {step(side, 0), step(0, side)};
 }
 
+size_t PixelSampler::profile_at(const RayHit& hit) const {
+    const SceneObject& object = scene_.objects[hit.object];
+    return profile_index(scene_, profiles_, object, material_of_triangle(object.mesh, hit.triangle));
+}
+
+std::optional<Vec3> PixelSampler::reflectance_seen(const Seen& seen, size_t profile, uint32_t place) const {
+    const uint32_t pixel = hash_u32(settings_.seed, uint32_t(seen.x), uint32_t(seen.y));
+    const Vec2 within = settings_.filter == PixelFilter::center
+                            ? Vec2{0.5f, 0.5f}
+                            : OwenSequence(hash_u32(pixel, kReflectanceStream), place).next_2d();
+    const auto hit = rays_.closest_hit(RaySet::opaque, camera_ray(seen.x, seen.y, within));
+    if (!hit) return std::nullopt;
+    const SceneObject& object = scene_.objects[hit->object];
+    const uint32_t material = material_of_triangle(object.mesh, hit->triangle);
+    if (object.classes[material] != MaterialClass::skin || profile_at(*hit) != profile) return std::nullopt;
+    const SurfaceAttributes surface = rays_.surface_at(*hit);
+    return surface_[profile].reflectance_around({surface.p_world_mm, surface.n_geometry_world, hit->n_face},
+                                                kReflectanceProbes,
+                                                hash_u32(pixel, kReflectanceStream, place));
+}
+
+Vec3 PixelSampler::reflectance_around(const Seen& seen, size_t profile, const DiffusePoint& point,
+                                      uint32_t seed) const {
+    const size_t pixel = size_t(seen.y) * size_t(settings_.width) + size_t(seen.x);
+    std::atomic<float>* const kept =
+        &reflectance_[3 * (profile * size_t(settings_.width) * size_t(settings_.height) + pixel)];
+    const Vec3 made = {kept[0].load(std::memory_order_relaxed), kept[1].load(std::memory_order_relaxed),
+                       kept[2].load(std::memory_order_relaxed)};
+    if (made.x > 0 && made.y > 0 && made.z > 0) return made;
+    Vec3 sum;
+    int places = 0;
+    for (uint32_t place = 0; place < kReflectancePlaces; ++place)
+        if (const std::optional<Vec3> found = reflectance_seen(seen, profile, place)) sum += *found, ++places;
+    // A sliver that no place met: by its own point, for this sample alone.
+    if (places == 0)
+        return surface_[profile].reflectance_around(point, kReflectanceProbes,
+                                                    hash_u32(seed, kReflectanceStream));
+    const Vec3 mean = sum * (1 / float(places));
+    kept[0].store(mean.x, std::memory_order_relaxed);
+    kept[1].store(mean.y, std::memory_order_relaxed);
+    kept[2].store(mean.z, std::memory_order_relaxed);
+    return mean;
+}
+
 // Skin that scatters in part: the rest of its light leaves where it entered.
 PixelSampler::DiffuseLight PixelSampler::diffuse_light(const Seen& seen, const ShadingPoint& point,
                                                        const UvFootprint& footprint,
                                                        const LightingRandom& random, uint32_t seed,
                                                        PixelSample& sample) const {
     const Receiver receiver = receiver_of(point);
-    if (point.material_class != MaterialClass::skin) return {lighting_.irradiance(receiver, random), {}};
+    if (point.material_class != MaterialClass::skin)
+        return {lighting_.irradiance(receiver, lighting_.choose(random)), {}};
     const float scatter = surface_.empty() && walk_.empty() ? 0 : point.scatter;
     const bool reflects = lighting_.settings().entry_eta > 1;  // where light enters the medium
     const bool measures = measure_ == Measure::effect;
-    const bool walks = !walk_.empty();
-    const auto own_light = [&](const Lighting& lighting) {
-        return mean_irradiance(lighting, receiver, seed, settings_.probes);
-    };
+    const int probes = probes_of(settings_);
+    const int lights = settings_.integrator == Integrator::surface ? std::max(probes, kLeastLights) : probes;
     // Without scattering, all samples of a pixel have points of the lights that lie evenly together.
     if (scatter == 0)
-        return {mean_irradiance(lighting_, receiver, seen.pixel_seed, settings_.probes,
-                                seen.index * uint32_t(settings_.probes)),
+        return {mean_irradiance(lighting_, receiver, seen.pixel_seed, lights, seen.index * uint32_t(lights)),
                 {}};
-    Vec3 own, spread;
-    const bool needs_own = scatter < 1 || (walks && subtracts_flat()) || (measures && !reflects);
+    const auto own_light = [&](const Lighting& lighting) {
+        return mean_irradiance(lighting, receiver, seed, lights);
+    };
     const DiffusePoint diffuse{point.p_mm, point.n_geometry, point.n_face, footprint};
-    const size_t profile = profile_index(scene_, profiles_, scene_.objects[point.object], point.material);
-    if (walks) {
-        if (needs_own) own = own_light(lighting_);
-        const WalkIntegrator::Result walked = walk_[profile].exitance(diffuse, receiver, own, seed);
-        sample.walks += settings_.probes;
-        sample.lost_walks += walked.lost;
-        spread = walked.exitance;
-    } else {
-        const SurfaceIntegrator::Result found = surface_[profile].estimate(diffuse, receiver, seed);
-        if (needs_own) own = found.own ? *found.own : own_light(lighting_);
-        spread = found.exitance;
+    const size_t profile = profile_at(seen.hit);
+    if (walk_.empty()) {
+        const Vec3 around = reflectance_around(seen, profile, diffuse, seed);
+        const uint32_t first = seen.index * uint32_t(lights);
+        const SurfaceIntegrator::Result found =
+            surface_[profile].estimate(diffuse, receiver, around, {seen.pixel_seed, seen.index, first});
+        const Vec3 scattered = found.scattered * scatter;
+        if (measures || lights == probes) return {found.own + scattered, scattered};
+        const float part = float(probes) / float(lights);
+        const Vec3 others =
+            mean_irradiance(lighting_, receiver, seen.pixel_seed, lights - probes, first + uint32_t(probes));
+        return {mix(others, found.own, part) + scattered, scattered};
     }
-    const Vec3 exitance = own * (1 - scatter) + spread * scatter;
+    Vec3 own;
+    if (scatter < 1 || subtracts_flat() || (measures && !reflects)) own = own_light(lighting_);
+    const WalkIntegrator::Result walked = walk_[profile].exitance(diffuse, receiver, own, seed);
+    sample.walks += probes;
+    sample.lost_walks += walked.lost;
+    const Vec3 exitance = own * (1 - scatter) + walked.exitance * scatter;
     if (!measures) return {exitance, {}};
     return {exitance, exitance - (reflects ? own_light(unscattered_lighting_) : own)};
 }
@@ -268,7 +326,8 @@ MaterialClass PixelSampler::add_surface(const Seen& seen, Vec3 weight, uint32_t 
                                                (point.opacity / kPi));
     sample.diffuse += weight * (leaves * light.exitance + point.emission_linear);
     sample.scattered += weight * leaves * light.scattered;
-    sample.specular += weight * lighting_.specular_radiance(point, to_eye, random);
+    if (measure_ == Measure::picture)
+        sample.specular += weight * lighting_.specular_radiance(point, to_eye, random);
     return point.material_class;
 }
 

@@ -32,7 +32,8 @@ struct TracedScene {
                                                                          const ReferenceSettings& settings);
 };
 
-/// What samples are for. effect: PixelSample::scattered too, which may take more shadow rays.
+/// What samples are for. effect: PixelSample::scattered, and of what the picture shows no more than that
+/// takes.
 enum class Measure { picture, effect };
 
 /// Everything a picture needs, loaded once; safe from any thread afterwards. Not movable: parts refer to each
@@ -84,6 +85,13 @@ class PixelSampler {
         return settings_.normalisation == Normalisation::by_area &&
                lighting_.settings().ambient == AmbientModel::renderer;
     }
+    /// By the surface integral: around what the pixel sees of a profile's skin, made once.
+    [[nodiscard]] Vec3 reflectance_around(const Seen& seen, size_t profile, const DiffusePoint& point,
+                                          uint32_t seed) const;
+    /// Of what a ray through the pixel sees first; none where that is no skin of the profile.
+    [[nodiscard]] std::optional<Vec3> reflectance_seen(const Seen& seen, size_t profile,
+                                                       uint32_t place) const;
+    [[nodiscard]] size_t profile_at(const RayHit& hit) const;
     /// Over albedo.
     struct DiffuseLight {
         Vec3 exitance;
@@ -107,6 +115,8 @@ class PixelSampler {
     std::vector<std::string> profiles_;       ///< skin_profiles(); empty where `settings` has a medium
     std::vector<SurfaceIntegrator> surface_;  ///< one a profile; empty: no surface integral
     std::vector<WalkIntegrator> walk_;        ///< one a profile; empty: no walks
+    /// Three channels of each pixel and profile; 0: not made. Every thread makes the same.
+    mutable std::vector<std::atomic<float>> reflectance_;
 };
 
 }  // namespace dermis::inline reference

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "dermis/base/angle.h"
+
 namespace dermis::inline reference {
 namespace {
 
@@ -62,6 +64,11 @@ ProfileSampler::ProfileSampler(const Profile& profile, double width_scale) {
     guide_ = GuideTable(cumulative_);
     least_mm_ = radius_mm_.front();
     max_mm_ = radius_mm_.back();
+    // Within a ring r R(r) is linear in log r; the trapezoid over r of 2 pi r R(r).
+    total_ = radius_reflectance_.front() * (kPi * least_mm_);
+    for (size_t k = 1; k < radius_mm_.size(); ++k)
+        total_ += (radius_reflectance_[k - 1] + radius_reflectance_[k]) *
+                  (kPi * (radius_mm_[k] - radius_mm_[k - 1]));
 }
 
 float ProfileSampler::cell_position(float r_mm) const {

@@ -29,6 +29,8 @@ class ProfileSampler {
     /// Density of the sampled points, per mm^2 of the plane.
     [[nodiscard]] float density_per_mm2(float r_mm) const;
     [[nodiscard]] float max_mm() const { return max_mm_; }
+    /// The integral of reflectance() over the plane.
+    [[nodiscard]] Vec3 total() const { return total_; }
 
   private:
     /// Cell 0 is the disk within least_mm_, cell k the ring up to radius_mm_[k].
@@ -40,6 +42,7 @@ class ProfileSampler {
     GuideTable guide_;                      // of cumulative_
     std::vector<float> density_;            // of every cell
     std::vector<Vec3> radius_reflectance_;  // r R(r) at every outer radius
+    Vec3 total_;
 };
 
 }  // namespace dermis::inline reference

@@ -12,60 +12,64 @@
 namespace dermis::inline reference {
 namespace {
 
-// Probes of a half for each probe along one of the two tangents: these find surfaces nearly parallel to the
-// normal, which are rare, and mostly meet far skin of little weight.
-constexpr uint32_t kProbesPerTangent = 16;
+// The share of probes along each of the two tangents: these find surfaces nearly parallel to the normal,
+// which are rare, and mostly meet far skin of little weight.
+constexpr float kTangentShare = 1.0f / 16;
 constexpr size_t kMostHits = 32;
 // Russian roulette: a point whose weight is less than this many times the typical weight is evaluated with
 // the probability of that ratio only.
 constexpr float kFullWeight = 0.1f;
+// Of a plane's. Where it is less, as on the point of a needle or between surfaces that cross, single probes
+// would make the series' terms too large.
+constexpr float kLeastReflectance = 0.5f;
 
 float most(Vec3 v) {
     return std::max({v.x, v.y, v.z});
 }
 
-float quotient(float a, float b) {
-    return b > 0 ? a / b : 0;
-}
-Vec3 quotient(Vec3 a, Vec3 b) {
-    return {quotient(a.x, b.x), quotient(a.y, b.y), quotient(a.z, b.z)};
+std::array<LocalFrame, 3> axes_around(Vec3 normal) {
+    const LocalFrame f = frame_of(normal);
+    return {f, {f.bitangent, f.normal, f.tangent}, {f.normal, f.tangent, f.bitangent}};
 }
 
-// The quotient of all probes, less its bias. The bias is as the variance of the sums, which falls faster than
-// 1/n with these points: in a half it is about 2.33 times that of the whole (spheres of 2 mm, 16 to 64
-// probes). Where all probes of a half missed, the plain quotient is used.
-constexpr float kOfTheDifference = 1 / (2.33f - 1);
-float jackknife(float all, float first, float second, float first_weight, float second_weight) {
-    if (first_weight <= 0 || second_weight <= 0) return all;
-    return all + kOfTheDifference * (all - 0.5f * (first + second));
+float axis_share(size_t axis) {
+    return axis == 0 ? 1 - 2 * kTangentShare : kTangentShare;
+}
+
+Vec3 quotient(Vec3 a, Vec3 b) {
+    const auto of = [](float numerator, float denominator) {
+        return denominator > 0 ? numerator / denominator : 0;
+    };
+    return {of(a.x, b.x), of(a.y, b.y), of(a.z, b.z)};
+}
+
+// Mean of n (1 + x + x^2) by the means of each run; the factors of a product are of different runs.
+Vec3 series(const std::array<Vec3, kRuns>& n, const std::array<Vec3, kRuns>& x) {
+    Vec3 sum;
+    for (size_t i = 0; i < kRuns; ++i) {
+        const Vec3 a = x[(i + 1) % kRuns], b = x[(i + 2) % kRuns];
+        sum += n[i] * (Vec3{1, 1, 1} + (a + b) * 0.5f + a * b);
+    }
+    return sum * (1.0f / kRuns);
 }
 
 }  // namespace
 
-SurfaceIntegrator::Disks SurfaceIntegrator::disks_around(Vec3 normal) const {
-    const LocalFrame f = frame_of(normal);
-    const uint32_t half = uint32_t(settings_.probes) / 2;
-    const uint32_t along_tangent = std::max(1u, half / kProbesPerTangent);
-    return {{{f, half - 2 * along_tangent},
-             {{f.bitangent, f.normal, f.tangent}, along_tangent},
-             {{f.normal, f.tangent, f.bitangent}, along_tangent}}};
-}
-
-// Of all disks' probes together: the balance heuristic (Veach, Guibas 1995) by their true numbers.
-float SurfaceIntegrator::probe_density(const Disks& disks, Vec3 offset_mm, Vec3 n_face) const {
+// Of all axes together: the balance heuristic for one sample (Veach, Guibas 1995).
+float SurfaceIntegrator::probe_density(const Axes& axes, Vec3 offset_mm, Vec3 n_face) const {
     float sum = 0;
-    for (const Disk& disk : disks) {
-        const float along = dot(offset_mm, disk.frame.normal);
+    for (size_t i = 0; i < axes.size(); ++i) {
+        const Vec3 axis = axes[i].normal;
+        const float along = dot(offset_mm, axis);
         const float radius_mm = std::sqrt(std::max(0.0f, dot(offset_mm, offset_mm) - along * along));
-        sum += float(disk.probes) * profile_.density_per_mm2(radius_mm) *
-               std::abs(dot(n_face, disk.frame.normal));
+        sum += axis_share(i) * profile_.density_per_mm2(radius_mm) * std::abs(dot(n_face, axis));
     }
-    return sum / float(settings_.probes / 2);
+    return sum;
 }
 
 std::span<const RayHit> SurfaceIntegrator::probe_hits(const DiffusePoint& point, const LocalFrame& disk,
-                                                      Vec2 u, std::span<RayHit> hits) const {
-    const float radius_mm = profile_.sample_radius_mm(u.x), angle_rad = 2 * kPi * u.y;
+                                                      Vec2 radius_and_angle, std::span<RayHit> hits) const {
+    const auto [radius_mm, angle_rad] = radius_and_angle;
     const float half_mm =
         std::sqrt(std::max(0.0f, profile_.max_mm() * profile_.max_mm() - radius_mm * radius_mm));
     const Vec3 middle_mm =
@@ -76,15 +80,20 @@ std::span<const RayHit> SurfaceIntegrator::probe_hits(const DiffusePoint& point,
         hits));
 }
 
-void SurfaceIntegrator::probe(const DiffusePoint& point, const Probe& of, Sums& sums) const {
+template <class Found>
+Vec3 SurfaceIntegrator::probe(const DiffusePoint& point, const Probe& of, const Found& found) const {
     HitBuffer<kMostHits> buffer;
     Pcg32 chance(of.seed, of.index);
-    const Vec2 polar = OwenSequence(of.seed, of.index).next_2d();
-    for (const RayHit& hit : probe_hits(point, of.disk, polar, buffer.hits())) {
+    OwenSequence even(of.seed, of.index);
+    const Vec2 u = even.next_2d();
+    const float choice = even.next_1d() / kTangentShare;
+    const size_t axis = choice < 1 ? 1 : choice < 2 ? 2 : 0;
+    const float radius_mm = profile_.sample_radius_mm(u.x);
+    for (const RayHit& hit : probe_hits(point, of.axes[axis], {radius_mm, 2 * kPi * u.y}, buffer.hits())) {
         SurfaceAttributes surface = rays_.surface_at(hit);
         surface.footprint = point.footprint;
         const Vec3 offset_mm = surface.p_world_mm - point.p_mm;
-        const float density = probe_density(of.disks, offset_mm, hit.n_face);
+        const float density = probe_density(of.axes, offset_mm, hit.n_face);
         if (density <= 0) continue;
         // First by the straight distance, which is at most the way through flesh and needs no rays.
         const float straight_weight = most(profile_.reflectance(length(offset_mm))) / density;
@@ -93,11 +102,11 @@ void SurfaceIntegrator::probe(const DiffusePoint& point, const Probe& of, Sums& 
         const float way_mm = way_through_flesh_mm(rays_, {point.p_mm, point.n_face},
                                                   {surface.p_world_mm, hit.n_face}, profile_.max_mm());
         if (way_mm > profile_.max_mm()) continue;
-        const Vec3 weight = profile_.reflectance(way_mm) * (1 / (density * survival));
-        const Receiver receiver = lighting_.skin_receiver(surface, hit);
-        sums.irradiance += weight * (lighting_.irradiance(receiver, of.light) - of.own_irradiance);
-        sums.reflectance += weight;
+        found(profile_.reflectance(way_mm) * (1 / (density * survival)), surface, hit);
     }
+    const float density = axis_share(0) * profile_.density_per_mm2(radius_mm);
+    const bool on_plane = axis == 0 && density > 0;
+    return profile_.total() - (on_plane ? profile_.reflectance(radius_mm) * (1 / density) : Vec3{});
 }
 
 LightingRandom lighting_random(uint32_t seed, uint32_t index) {
@@ -111,47 +120,61 @@ Vec3 mean_irradiance(const Lighting& lighting, const Receiver& receiver, uint32_
     if (lighting.is_exact()) return lighting.irradiance(receiver, {});
     Vec3 sum;
     for (int i = 0; i < count; ++i)
-        sum += lighting.irradiance(receiver, lighting_random(seed, first + uint32_t(i)));
+        sum += lighting.irradiance(receiver, lighting.choose(lighting_random(seed, first + uint32_t(i))));
     return sum * (1 / float(count));
 }
 
+Vec3 SurfaceIntegrator::reflectance_around(const DiffusePoint& point, int probes, uint32_t seed) const {
+    const Axes axes = axes_around(point.n_geometry);
+    Vec3 sum;
+    for (int i = 0; i < probes; ++i) {
+        const auto add = [&](Vec3 weight, const SurfaceAttributes&, const RayHit&) { sum += weight; };
+        sum += probe(point, {axes, seed, uint32_t(i)}, add);
+    }
+    const Vec3 mean = sum * (1 / float(probes)), least = profile_.total() * kLeastReflectance;
+    return {std::max(mean.x, least.x), std::max(mean.y, least.y), std::max(mean.z, least.z)};
+}
+
 SurfaceIntegrator::Result SurfaceIntegrator::estimate(const DiffusePoint& point, const Receiver& receiver,
-                                                      uint32_t seed) const {
-    const Disks disks = disks_around(point.n_geometry);
-    const bool subtracts = settings_.normalisation == Normalisation::by_area && !lighting_.is_exact();
-    Sums half[2];
-    Vec3 own;
-    // Each half is a run of every disk's sequence, as evenly spread as the whole. Every second probe is not:
-    // as their order is shuffled, it is a random half, whose bias is more than twice that of the whole.
-    uint32_t number = 0;
-    for (uint32_t h = 0; h < 2; ++h)
-        for (uint32_t d = 0; d < disks.size(); ++d)
-            for (uint32_t i = 0; i < disks[d].probes; ++i) {
-                Probe one{disks, disks[d].frame, hash_u32(seed, 2 + d), h * disks[d].probes + i,
-                          lighting_random(seed, number++)};
-                if (subtracts) own += one.own_irradiance = lighting_.irradiance(receiver, one.light);
-                probe(point, one, half[h]);
-            }
-    const float share = 1 / float(settings_.probes);
-    const Sums all{half[0].irradiance + half[1].irradiance, half[0].reflectance + half[1].reflectance};
-    if (settings_.normalisation == Normalisation::none) return {all.irradiance * share, std::nullopt};
-    const Vec3 a = quotient(half[0].irradiance, half[0].reflectance);
-    const Vec3 b = quotient(half[1].irradiance, half[1].reflectance);
-    const Vec3 m = quotient(all.irradiance, all.reflectance), wa = half[0].reflectance,
-               wb = half[1].reflectance;
-    const Vec3 spread = {jackknife(m.x, a.x, b.x, wa.x, wb.x), jackknife(m.y, a.y, b.y, wa.y, wb.y),
-                         jackknife(m.z, a.z, b.z, wa.z, wb.z)};
-    if (!subtracts) return {spread, std::nullopt};
-    own = own * share;
-    return {own + spread, own};
+                                                      Vec3 reflectance, SampleRandom random) const {
+    const Axes axes = axes_around(point.n_geometry);
+    const bool exact = lighting_.is_exact(), divides = settings_.normalisation == Normalisation::by_area;
+    const auto count = uint32_t(settings_.probes_of_run);
+    const float share = 1 / float(count);
+    Vec3 own = exact ? lighting_.irradiance(receiver, {}) : Vec3{}, sum_of_own;
+    std::array<Vec3, kRuns> found, rest;
+    uint32_t number = random.first_light;
+    for (uint32_t run = 0; run < kRuns; ++run) {
+        Vec3 n, d;
+        for (uint32_t i = 0; i < count; ++i) {
+            const LightingChoice light = lighting_.choose(lighting_random(random.seed, number++));
+            if (!exact) own = lighting_.irradiance(receiver, light);
+            sum_of_own += own;
+            d += probe(point, {axes, hash_u32(random.seed, 2, run), random.index * count + i},
+                       [&](Vec3 weight, const SurfaceAttributes& surface, const RayHit& hit) {
+                           const Vec3 from =
+                               lighting_.irradiance(lighting_.skin_receiver(surface, hit), light);
+                           n += weight * (divides ? from - own : from);
+                           d += weight;
+                       });
+        }
+        found[run] = n * share;
+        rest[run] = Vec3{1, 1, 1} - quotient(d * share, reflectance);
+    }
+    own = sum_of_own * (share / kRuns);
+    if (!divides) return {own, (found[0] + found[1] + found[2]) * (1.0f / kRuns) - own};
+    return {own, quotient(series(found, rest), reflectance)};
 }
 
 Estimate estimate_exitance(const SurfaceIntegrator& integrator, const DiffusePoint& point,
                            const Receiver& receiver, int estimates, uint32_t seed) {
+    constexpr int kReflectanceProbes = 256;
+    const Vec3 reflectance = integrator.reflectance_around(point, kReflectanceProbes, hash_u32(seed));
     std::vector<Vec3> values(static_cast<size_t>(estimates));
     parallel_for(values.size(), 4, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i)
-            values[i] = integrator.exitance(point, receiver, hash_u32(seed, uint32_t(i)));
+            values[i] = integrator.estimate(point, receiver, reflectance, {hash_u32(seed, uint32_t(i)), 0, 0})
+                            .exitance();
     });
     const auto channel = [&](float Vec3::*c, float& mean_out, float& error_out) {
         double mean = 0, squares = 0;

@@ -5,10 +5,10 @@
 namespace dermis::inline reference {
 
 Vec3 WalkIntegrator::entering(const FleshBoundary& boundary, const DiffusePoint& point,
-                              const LightingRandom& uniform) const {
+                              const LightingChoice& light) const {
     SurfaceAttributes surface = rays_.surface_at(boundary.last());
     surface.footprint = point.footprint;
-    return lighting_.irradiance(lighting_.skin_receiver(surface, boundary.last()), uniform);
+    return lighting_.irradiance(lighting_.skin_receiver(surface, boundary.last()), light);
 }
 
 WalkPair WalkIntegrator::walk(const DiffusePoint& point, FleshBoundary& boundary, float lead,
@@ -33,9 +33,9 @@ WalkIntegrator::Result WalkIntegrator::exitance(const DiffusePoint& point, const
         // Both ends under the same point of the lights.
         OwenSequence points(hash_u32(seed, 2), uint32_t(i));
         const Vec2 penumbra = points.next_2d(), environment = points.next_2d();
-        const LightingRandom uniform{penumbra, environment, points.next_1d()};
-        if (end.throughput != Vec3{}) sum += end.throughput * entering(boundary, point, uniform);
-        if (flat.throughput != Vec3{}) sum -= flat.throughput * lighting_.irradiance(receiver, uniform);
+        const LightingChoice light = lighting_.choose({penumbra, environment, points.next_1d()});
+        if (end.throughput != Vec3{}) sum += end.throughput * entering(boundary, point, light);
+        if (flat.throughput != Vec3{}) sum -= flat.throughput * lighting_.irradiance(receiver, light);
     }
     const Vec3 n = settings_.normalisation;
     const float share = 1.0f / float(settings_.walks);

@@ -47,7 +47,7 @@ class WalkIntegrator {
     [[nodiscard]] WalkPair walk(const DiffusePoint& point, FleshBoundary& boundary, float lead,
                                 Pcg32 random) const;
     [[nodiscard]] Vec3 entering(const FleshBoundary& boundary, const DiffusePoint& point,
-                                const LightingRandom& uniform) const;
+                                const LightingChoice& light) const;
 
     const RayScene& rays_;
     const Lighting& lighting_;

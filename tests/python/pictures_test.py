@@ -189,7 +189,7 @@ class Reference(TestCase):
                 (("--integrator", "wlk"), lambda: dermis.reference("spheres", integrator="wlk")),
                 (("--size", "x"), lambda: dermis.reference("spheres", size="x")),
                 (("--samples", 1, "--size", 8), lambda: dermis.reference("spheres", samples=1, size=8)),
-                (("--probes", 3, "--size", 8), lambda: dermis.reference("spheres", probes=3, size=8)),
+                (("--probes", -2, "--size", 8), lambda: dermis.reference("spheres", probes=-2, size=8)),
                 (("--medium", "sigma_s=1"), lambda: dermis.reference("spheres", medium={"sigma_s": 1})),
                 (("--medium", "x=1", "--integrator", "walk"),
                  lambda: dermis.reference("spheres", medium={"x": 1}, integrator="walk")),

@@ -43,7 +43,7 @@ Estimate estimate_at(const Scene& scene, Vec3 p_mm, Vec3 n) {
     const Lighting lighting(scene, rays, materials, environment, {});
     const Profile profile{
         .name = "test", .source = {}, .model = GaussianSum{"test", {{kVarianceMm2, {1, 1, 1}}}}};
-    const SurfaceIntegrator integrator(rays, lighting, ProfileSampler(profile, 1), {.probes = 64});
+    const SurfaceIntegrator integrator(rays, lighting, ProfileSampler(profile, 1), {.probes_of_run = 21});
     const auto facet = rays.closest_hit(RaySet::skin, {.origin_mm = p_mm + n * 0.1f, .direction = -n});
     const DiffusePoint point = {rays.surface_at(*facet).p_world_mm, n, facet->n_face};
     return estimate_exitance(integrator, point, {}, 400, 3);

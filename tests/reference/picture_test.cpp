@@ -135,7 +135,7 @@ TEST(ReferencePicture, a_walk_takes_every_profile) {
     for (const char* profile : {"gpu_gems_3", "burley:0.448,0.104,0.067", "jensen_skin1"}) {
         scene.skin.profile = profile;
         const auto lambert = render_reference(scene, small(Integrator::lambert, 8));
-        const auto surface = render_reference(scene, small(Integrator::surface, 8));
+        const auto surface = render_reference(scene, small(Integrator::surface, 64));
         const auto walk = render_reference(scene, small(Integrator::walk, 8));
         ASSERT_TRUE(walk) << walk.error().message;
         // Red light reaches past the terminator, and further than blue, as by the surface integral.
@@ -311,7 +311,7 @@ TEST(ReferencePicture, settings_out_of_range_are_refused_by_name) {
     settings.samples = 1;
     EXPECT_NE(render_reference(scene, settings).error().message.find("samples"), std::string::npos);
     settings = small(Integrator::surface);
-    settings.probes = 7;
+    settings.probes = -1;
     EXPECT_NE(render_reference(scene, settings).error().message.find("probes"), std::string::npos);
     settings = small(Integrator::surface);
     settings.width = 0;
