@@ -37,10 +37,7 @@ float axis_share(size_t axis) {
 }
 
 Vec3 quotient(Vec3 a, Vec3 b) {
-    const auto of = [](float numerator, float denominator) {
-        return denominator > 0 ? numerator / denominator : 0;
-    };
-    return {of(a.x, b.x), of(a.y, b.y), of(a.z, b.z)};
+    return {a.x / b.x, a.y / b.y, a.z / b.z};
 }
 
 // Mean of n (1 + x + x^2) by the means of each run; the factors of a product are of different runs.
@@ -132,7 +129,9 @@ Vec3 SurfaceIntegrator::reflectance_around(const DiffusePoint& point, int probes
         sum += probe(point, {axes, seed, uint32_t(i)}, add);
     }
     const Vec3 mean = sum * (1 / float(probes)), least = profile_.total() * kLeastReflectance;
-    return {std::max(mean.x, least.x), std::max(mean.y, least.y), std::max(mean.z, least.z)};
+    // Above 0 in a channel that reflects nothing too.
+    const auto at_least = [](float a, float b) { return std::max({a, b, 1e-30f}); };
+    return {at_least(mean.x, least.x), at_least(mean.y, least.y), at_least(mean.z, least.z)};
 }
 
 SurfaceIntegrator::Result SurfaceIntegrator::estimate(const DiffusePoint& point, const Receiver& receiver,

@@ -282,8 +282,10 @@ void expect_exact_answers(gpu::Device& device, bool in_every_run) {
         if (is_in_every_run(one) != in_every_run) continue;
         ++scenes;
         ASSERT_TRUE(complete_scene(one.scene)) << one.name;
-        ComparisonSettings settings = small(32, 0.04);
-        settings.probes = 64;  // fewer bias the reference by a few hundredths of the effect
+        // The slab returns the same everywhere, so that FLIP sees the noise alone.
+        const double noise = one.name == "unit/slab_behind" ? 0.015 : in_every_run ? 0.04 : 0.03;
+        ComparisonSettings settings = small(32, noise);
+        settings.probes = 66;
         settings.exact = one.exact;
         const auto comparison =
             compare_techniques(device, built_in_catalog(), one.scene, ratcheted_techniques(), settings);

@@ -74,7 +74,7 @@ TEST_F(SphereShares, preintegrated_captures_all_of_the_effect_on_the_four_sphere
     scene.camera.eye_mm = scene.camera.target_mm + (scene.camera.eye_mm - scene.camera.target_mm) * 0.42f;
     fit_depth_range(scene.camera, scene.bounds_center_mm, scene.bounds_radius_mm);
     ComparisonSettings settings = comparison_settings(128, 48);
-    settings.noise = 0.1;
+    settings.noise = 0.05;
     settings.frames = 0;
     const auto list = parse_technique_list(built_in_catalog().techniques, "preintegrated");
     ASSERT_TRUE(list);
