@@ -1,5 +1,6 @@
 // Diffusion profiles: presets, numbers of one's own, conversions, fits.
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -35,7 +36,10 @@ py::array_t<double> channels_array(const Rgb& values) {
     return array_of(std::vector<double>(values.begin(), values.end()), {3});
 }
 
+// Packages have the name in comments of a line.
 Profile checked(Profile profile) {
+    if (std::ranges::any_of(profile.name, [](unsigned char c) { return c < ' '; }))
+        throw Failure({"name: must be one line, without control characters"});
     check(dermis::check(profile));
     return profile;
 }

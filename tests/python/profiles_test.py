@@ -76,6 +76,7 @@ class Profiles(TestCase):
         for profile, file in ((own, "own.hlsl"), (path, "file.hlsl")):
             dermis.export(self.folder / file, language="hlsl", profile=profile)
         self.assertIn("my skin", (self.folder / "own.hlsl").read_text())
+        self.assert_error("name: must be one line, without control characters", dermis.burley_profile, (1, 1, 1), name="a\nb")
         with self.assertRaisesRegex(TypeError, "must be a Profile or its name"):
             dermis.reference("spheres", profile=3)
 
