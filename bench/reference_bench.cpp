@@ -1,4 +1,4 @@
-// Noise and processor time of the effect of scattering by a reference, as `dermis compare` makes it. The last
+// Noise and time of the effect of scattering by a reference, as `dermis compare` makes it. The last
 // number compares versions and settings: the time that the noise which compare asks for would take, if the
 // square fell as one over the time.
 //

@@ -88,7 +88,7 @@ class PixelSampler {
     /// By the surface integral: around what the pixel sees of a profile's skin, made once.
     [[nodiscard]] Vec3 reflectance_around(const Seen& seen, size_t profile, const DiffusePoint& point,
                                           uint32_t seed) const;
-    /// Of what a ray through the pixel sees first; none where that is no skin of the profile.
+    /// Around the first surface on a ray through the pixel; nothing if it is not skin of this profile.
     [[nodiscard]] std::optional<Vec3> reflectance_seen(const Seen& seen, size_t profile,
                                                        uint32_t place) const;
     [[nodiscard]] size_t profile_at(const RayHit& hit) const;

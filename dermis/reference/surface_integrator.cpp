@@ -65,8 +65,9 @@ float SurfaceIntegrator::probe_density(const Axes& axes, Vec3 offset_mm, Vec3 n_
 }
 
 std::span<const RayHit> SurfaceIntegrator::probe_hits(const DiffusePoint& point, const LocalFrame& disk,
-                                                      Vec2 radius_and_angle, std::span<RayHit> hits) const {
-    const auto [radius_mm, angle_rad] = radius_and_angle;
+                                                      Vec2 radius_mm_and_angle_rad,
+                                                      std::span<RayHit> hits) const {
+    const auto [radius_mm, angle_rad] = radius_mm_and_angle_rad;
     const float half_mm =
         std::sqrt(std::max(0.0f, profile_.max_mm() * profile_.max_mm() - radius_mm * radius_mm));
     const Vec3 middle_mm =

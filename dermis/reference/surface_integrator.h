@@ -26,8 +26,8 @@
 //
 // each product by independent probes, of three runs, so that its mean has no bias (U-statistics; Hoeffding
 // 1948). Within a run they lie evenly. What is left out is X^3 of N / D: a thousandth where D' is wrong by a
-// tenth (in pixels of 1.5 mm on the bust nine in ten differ by less than .05 from another estimate). In D and
-// D' each probe subtracts what it would find on a plane, whose sum is known: on even skin they have no noise.
+// tenth. In D and D' each probe subtracts what it would find on a plane, whose sum is known: on even skin
+// they have no noise.
 
 #include <array>
 #include <span>
@@ -96,7 +96,8 @@ class SurfaceIntegrator {
     template <class Found>
     Vec3 probe(const DiffusePoint& point, const Probe& of, const Found& found) const;
     [[nodiscard]] std::span<const RayHit> probe_hits(const DiffusePoint& point, const LocalFrame& disk,
-                                                     Vec2 radius_and_angle, std::span<RayHit> hits) const;
+                                                     Vec2 radius_mm_and_angle_rad,
+                                                     std::span<RayHit> hits) const;
     [[nodiscard]] float probe_density(const Axes& axes, Vec3 offset_mm, Vec3 n_face) const;
 
     const RayScene& rays_;

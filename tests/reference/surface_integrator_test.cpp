@@ -110,7 +110,7 @@ TEST_P(SphereRadius, burley_agrees_with_the_exact_sphere_integral) {
 
 // The error that few probes have on average, as a part of what scattering does to the sphere. Without the
 // series' products it is 0.014 in red.
-TEST(SurfaceIntegrator, the_bias_of_few_probes_is_below_a_hundredth_of_the_effect) {
+TEST(SurfaceIntegrator, the_bias_of_few_probes_is_a_hundredth_of_the_effect) {
     constexpr float kRadiusMm = 2;
     constexpr double kMost[2] = {0.012, 0.012};
     const Stage stage(test::sphere(kRadiusMm, 6), {0, 0, 1});

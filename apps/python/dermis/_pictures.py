@@ -84,9 +84,9 @@ def render(scene: Path='bust', technique: str='', *, settings: Words=None, size:
     diffuse, specular, normal, curvature, ... samples: 1 or 4 a pixel. bits: 8 or 16 of the PNG. camera: {key:
     value} of --camera, such as {"yaw_deg": 30, "distance_mm": 600}. light: the same of --light. keys: {key:
     value} of --scene, such as {"light.key.intensity": 2} or {"skin.profile": a Profile}. clip: an animation of the
-    mesh file, and time in it in s. morph: {target: weight} of --morph, such as {"jawOpen": 0.6}. Mappings may be the command line's text
-    instead. frames: a list of that many pictures of the clip, fps of them in a second, from time on; lights and
-    camera stay. turn: angle in degrees that the camera turns over all frames; without fps the pose stays. device:
+    mesh file, and time in it in s. morph: {target: weight} of --morph, such as {"jawOpen": 0.6}. Mappings may be
+    the command line's text instead. frames: a list of that many pictures of the clip, fps of them in a second,
+    from time on; lights and camera stay. turn: angle in degrees that the camera turns over all frames; without fps the pose stays. device:
     text in the Vulkan device's name.
     """
     least, most = -2**31, 2**31 - 1
@@ -175,10 +175,11 @@ def reference(scene: Path, *, size: Size='512x512', integrator: str='surface', s
     """The reference of a scene, as `dermis reference`. The same seed gives the same picture.
 
     integrator: surface, walk, lambert. samples: at most so many a pixel (64; with noise as many as it needs).
-    noise: stop at this relative error, such as 0.01. probes: for each sample; of walk walks (3, 16).
+    noise: stop at this relative error, such as 0.01. probes: of each sample (3); of walk, its walks (16).
     profile: a Profile or its name, instead of the scene's.
     medium: for walk, {"sigma_s": (r, g, b), "sigma_a": (r, g, b), "g": 0, "eta": 1.4} in 1/mm.
-    width_scale: factor on the lengths of profile or medium, 0 is Lambert. penumbra_mm: width of the key light's shadow edge. camera, light, keys, clip, time, morph: as in render().
+    width_scale: factor on the lengths of profile or medium, 0 is Lambert. penumbra_mm: width of the key light's
+    shadow edge. camera, light, keys, clip, time, morph: as in render().
     """
     options = given(size=size_text(size), integrator=integrator, noise=noise, profile=profile_text(profile),
                     width_scale=width_scale, normalisation=normalisation, cavities=cavities, filter=filter,
