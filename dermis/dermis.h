@@ -9,6 +9,7 @@
 #include "dermis/bake/zonal_table.h"
 #include "dermis/base/file.h"
 #include "dermis/base/result.h"
+#include "dermis/base/shared_bytes.h"
 #include "dermis/base/vec.h"
 #include "dermis/image/image.h"
 #include "dermis/image/io.h"

@@ -27,8 +27,9 @@ double cotangent(Vec3 a, Vec3 b) {
 
 SurfaceOperators operators_of(const Mesh& mesh, const Weld& weld) {
     SurfaceOperators made{Eigen::VectorXd::Zero(Eigen::Index(weld.count())), {}};
-    std::vector<Eigen::Triplet<double>> entries;
     const std::vector<uint32_t> corners = welded_indices(mesh.indices, weld);
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(4 * corners.size());
     for (size_t i = 0; i < corners.size(); i += 3)
         for (size_t k = 0; k < 3; ++k) {
             const uint32_t a = corners[i + k], b = corners[i + (k + 1) % 3], c = corners[i + (k + 2) % 3];
@@ -180,16 +181,19 @@ Result<FitWithoutNoise> fit_without_noise(const Mesh& mesh, std::span<const Surf
                            at_vertices(kept.noise + fine.noise, weld)};
 }
 
-Result<std::vector<float>> blur_over_surface(const Mesh& mesh, std::span<const float> values,
-                                             double variance_mm2) {
+Result<std::vector<std::vector<float>>> blur_over_surface(const Mesh& mesh, std::span<const float> values,
+                                                          std::span<const double> variances_mm2) {
     const Weld weld = weld_positions(mesh.positions_mm);
     const SurfaceOperators surface = operators_of(mesh, weld);
-    Eigen::VectorXd u(weld.count());
-    for (size_t i = 0; i < weld.count(); ++i) u[Eigen::Index(i)] = values[weld.first[i]];
-    DERMIS_TRY_ASSIGN(u, blurred(surface, std::move(u), variance_mm2));
-    std::vector<float> made;
-    made.reserve(values.size());
-    for (const uint32_t id : weld.ids) made.push_back(float(u[Eigen::Index(id)]));
+    Eigen::VectorXd welded(weld.count());
+    for (size_t i = 0; i < weld.count(); ++i) welded[Eigen::Index(i)] = values[weld.first[i]];
+    std::vector<std::vector<float>> made;
+    for (const double variance_mm2 : variances_mm2) {
+        DERMIS_TRY_ASSIGN(const Eigen::VectorXd u, blurred(surface, welded, variance_mm2));
+        std::vector<float>& one = made.emplace_back();
+        one.reserve(values.size());
+        for (const uint32_t id : weld.ids) one.push_back(float(u[Eigen::Index(id)]));
+    }
     return made;
 }
 

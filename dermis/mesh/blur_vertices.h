@@ -11,15 +11,15 @@
 
 namespace dermis::inline mesh {
 
-/// Blurs `values`, one per vertex, by about a Gaussian of `variance_mm2` (0 or more) per axis along the
-/// surface. Vertices at one position count as one, so UV seams do not show. Linear; keeps constants and the
-/// sum weighted by area.
+/// Blurs `values`, one per vertex, by about a Gaussian of each of `variances_mm2` (0 or more) per axis along
+/// the surface; one result each. Vertices at one position count as one, so UV seams do not show. Linear;
+/// keeps constants and the sum weighted by area.
 ///
 /// Heat on the surface (Desbrun et al. 1999, "Implicit Fairing of Irregular Meshes"): two implicit steps of
 /// (A + t L) u' = A u with the areas A, the cotangent Laplacian L (negative weights counted as 0), and
 /// t = variance / 4. The kernel has the Gaussian's variance, a sharper peak and longer tails.
-[[nodiscard]] Result<std::vector<float>> blur_over_surface(const Mesh& mesh, std::span<const float> values,
-                                                           double variance_mm2);
+[[nodiscard]] Result<std::vector<std::vector<float>>> blur_over_surface(
+    const Mesh& mesh, std::span<const float> values, std::span<const double> variances_mm2);
 
 /// Sums over the samples on one triangle, whose corners have the barycentric weights w0, w1, w2.
 struct SurfaceSamples {

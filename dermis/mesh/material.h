@@ -1,11 +1,11 @@
 #pragma once
 // The material of a mesh file, before any image is decoded.
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "dermis/base/shared_bytes.h"
 #include "dermis/base/vec.h"
 
 namespace dermis::inline mesh {
@@ -16,11 +16,11 @@ enum class TextureWrap { repeat, clamp, mirror };
 /// An image named by a mesh file or a scene: a path, the encoded bytes of an embedded one, or the pixels of
 /// one that was made by code.
 struct ImageSource {
-    std::string name;                ///< path, or a name for errors (unique, when there are pixels)
-    std::vector<std::byte> encoded;  ///< empty: read `name` from disk
+    std::string name;     ///< path, or a name for errors (unique, when there are pixels)
+    SharedBytes encoded;  ///< empty: read `name` from disk
     int width = 0, height = 0, channels = 0;
-    std::vector<std::byte> pixels;  ///< 8 bit, rows from the top; sRGB where the map is a colour
-    std::string named_by;           ///< the file that names it, for errors; may be empty
+    SharedBytes pixels;    ///< 8 bit, rows from the top; sRGB where the map is a colour
+    std::string named_by;  ///< the file that names it, for errors; may be empty
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
 
     [[nodiscard]] bool present() const { return !name.empty() || !encoded.empty(); }

@@ -41,7 +41,7 @@ Result<const Texture*> MaterialSet::texture_of(const ImageSource& source, ImageU
     const int gutter = material.dilate_texels;
     const std::string key = Hasher()
                                 .add(source.name)
-                                .add(std::span(source.encoded))
+                                .add(source.encoded)
                                 .add(use)
                                 .add(gutter)
                                 .add(source.wrap_u)

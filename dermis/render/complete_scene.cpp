@@ -54,19 +54,23 @@ Result<void> complete_scene(Scene& scene) {
 Result<std::vector<Vec3>> blurred_occlusions(const Mesh& mesh) {
     std::vector<float> occlusions = mesh.occlusions;
     occlusions.resize(mesh.positions_mm.size(), 1.0f);
-    std::vector<Vec3> blurred;
-    for (const float occlusion : occlusions) blurred.push_back(Vec3{1, 1, 1} * occlusion);
     // Nothing occludes: nothing to blur.
     if (std::ranges::all_of(occlusions, [&](float occlusion) { return occlusion == occlusions.front(); }))
-        return blurred;
-    const std::pair<float Vec3::*, float> blurs[] = {{&Vec3::x, kOcclusionVariance0Mm2},
-                                                     {&Vec3::y, kOcclusionVariance1Mm2},
-                                                     {&Vec3::z, kOcclusionVariance2Mm2}};
-    for (const auto& [member, variance_mm2] : blurs) {
-        DERMIS_TRY_ASSIGN(const std::vector<float> values, blur_over_surface(mesh, occlusions, variance_mm2));
-        for (size_t i = 0; i < blurred.size(); ++i) blurred[i].*member = values[i];
-    }
-    return blurred;
+        return std::vector(occlusions.size(), Vec3{1, 1, 1} * (occlusions.empty() ? 1 : occlusions.front()));
+    const std::vector<double> variances_mm2 = {kOcclusionVariance0Mm2, kOcclusionVariance1Mm2,
+                                               kOcclusionVariance2Mm2};
+    Hasher hasher;
+    hasher.add("blurred occlusion 1").add(variances_mm2);
+    hasher.add(mesh.positions_mm).add(mesh.indices).add(occlusions);
+    return cached("blurred_occlusion", hasher.hex(), std::vector<Vec3>(occlusions.size()),
+                  [&]() -> Result<std::vector<Vec3>> {
+                      DERMIS_TRY_ASSIGN(const std::vector<std::vector<float>> blurred,
+                                        blur_over_surface(mesh, occlusions, variances_mm2));
+                      std::vector<Vec3> made;
+                      for (size_t i = 0; i < occlusions.size(); ++i)
+                          made.push_back({blurred[0][i], blurred[1][i], blurred[2][i]});
+                      return made;
+                  });
 }
 
 }  // namespace dermis::inline render

@@ -13,7 +13,7 @@ namespace dermis::inline render {
 [[nodiscard]] Result<void> complete_scene(Scene& scene);
 
 /// One per vertex: its occlusion blurred over the surface by three variances (kOcclusionVariance0Mm2 and
-/// following); 1 where the mesh has none. Errors as blur_over_surface().
+/// following); 1 where the mesh has none. Cached by content. Errors as blur_over_surface().
 [[nodiscard]] Result<std::vector<Vec3>> blurred_occlusions(const Mesh& mesh);
 
 }  // namespace dermis::inline render

@@ -16,7 +16,7 @@ Result<Image> load_image_source(const ImageSource& source, ImageUse use) {
         image.width = source.width, image.height = source.height, image.channels = source.channels;
         image.format = PixelFormat::u8;
         image.encoding = use == ImageUse::color ? Encoding::srgb : Encoding::linear;
-        image.bytes = source.pixels;
+        image.bytes.assign(source.pixels.span().begin(), source.pixels.span().end());
         return image;
     }
     Result<LoadedImage> loaded = source.encoded.empty() ? read_image(source.name, use)

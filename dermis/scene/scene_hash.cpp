@@ -87,7 +87,7 @@ Result<void> add_image(Hasher& hasher, const ImageSource& source) {
     hasher.add(source.present());
     if (!source.present()) return {};
     hasher.add(source.width).add(source.height).add(source.channels);
-    hasher.add(std::span(source.encoded)).add(std::span(source.pixels));
+    hasher.add(source.encoded).add(source.pixels);
     hasher.add(source.wrap_u).add(source.wrap_v);
     if (!source.encoded.empty() || !source.pixels.empty()) return {};
     DERMIS_TRY_ASSIGN(const std::vector<std::byte> file, read_file(source.name));

@@ -13,12 +13,12 @@
 namespace dermis {
 namespace {
 
-ImageSource made_by_code(std::string name, const Image& image) {
+ImageSource made_by_code(std::string name, Image&& image) {
     return {.name = std::move(name),
             .width = image.width,
             .height = image.height,
             .channels = image.channels,
-            .pixels = image.bytes};
+            .pixels = std::move(image.bytes)};
 }
 
 // Maps of different busts need different names: "builtin:bust tone=5".
@@ -80,13 +80,13 @@ Result<SubjectScene> make(const ParameterValues& values) {
     Material& skin = object.mesh.materials[0];
     skin.base_color_linear = {1, 1, 1};
     skin.roughness = 1;
-    skin.base_color_map = made_by_code(name + " albedo", bust->albedo);
-    skin.normal_map = made_by_code(name + " normal", bust->normal);
-    skin.roughness_map = made_by_code(name + " roughness", bust->roughness);
-    skin.specular_map = made_by_code(name + " specular", bust->specular);
-    skin.kernel_size_map = made_by_code(name + " kernel size", bust->kernel_size);
-    skin.melanin_map = made_by_code(name + " melanin", bust->melanin);
-    skin.blood_map = made_by_code(name + " blood", bust->blood);
+    skin.base_color_map = made_by_code(name + " albedo", std::move(bust->albedo));
+    skin.normal_map = made_by_code(name + " normal", std::move(bust->normal));
+    skin.roughness_map = made_by_code(name + " roughness", std::move(bust->roughness));
+    skin.specular_map = made_by_code(name + " specular", std::move(bust->specular));
+    skin.kernel_size_map = made_by_code(name + " kernel size", std::move(bust->kernel_size));
+    skin.melanin_map = made_by_code(name + " melanin", std::move(bust->melanin));
+    skin.blood_map = made_by_code(name + " blood", std::move(bust->blood));
     SubjectScene scene;
     scene.objects.push_back(std::move(object));
     return scene;

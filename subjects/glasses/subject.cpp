@@ -131,14 +131,18 @@ void add_lens(Mesh& mesh, float side) {
 // Transmittance, sRGB codes: dark violet at the brow, nearly clear at the cheek.
 ImageSource lens_tint() {
     constexpr float kTop[3] = {118, 62, 140}, kBottom[3] = {238, 205, 240};
-    ImageSource tint{.name = "builtin:glasses tint", .width = kTintSide, .height = kTintSide, .channels = 3};
+    std::vector<std::byte> pixels;
     for (int y = 0; y < kTintSide; ++y)
         for (int x = 0; x < kTintSide; ++x)
             for (int c = 0; c < 3; ++c) {
                 const float t = std::clamp(1.6f * float(y) / (kTintSide - 1) - 0.3f, 0.0f, 1.0f);
-                tint.pixels.push_back(std::byte(std::lround(kTop[c] + (kBottom[c] - kTop[c]) * t)));
+                pixels.push_back(std::byte(std::lround(kTop[c] + (kBottom[c] - kTop[c]) * t)));
             }
-    return tint;
+    return {.name = "builtin:glasses tint",
+            .width = kTintSide,
+            .height = kTintSide,
+            .channels = 3,
+            .pixels = std::move(pixels)};
 }
 
 Result<SubjectScene> make(const ParameterValues&) {

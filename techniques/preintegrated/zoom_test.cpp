@@ -159,9 +159,9 @@ TEST_F(PreintegratedZoom, reads_an_image_of_curvature_around_its_value_of_flat_s
     for (SceneObject& object : scene.objects) {
         Material& skin = object.mesh.materials[0];
         skin.curvature_mid = 0.2f;
-        skin.curvature_map.pixels[0] = std::byte(std::lround(
+        skin.curvature_map.pixels = {std::byte(std::lround(
             255 * (0.2f + mean_curvature(object.mesh.curvatures_per_mm[0]) / skin.curvature_scale_per_mm) *
-            0.5f));
+            0.5f))};
         skin.curvature_mid *= 0.5f;
         skin.curvature_scale_per_mm *= 2;
     }

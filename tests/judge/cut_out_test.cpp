@@ -16,11 +16,15 @@ constexpr Vec3 kCardColor = {1, 0, 0}, kSkinColor = {1, 1, 1};
 
 // Sixteen texels side by side, eight of each; a card's u grows with x.
 ImageSource halves(const std::string& name, const std::vector<int>& left, const std::vector<int>& right) {
-    ImageSource source{
-        .name = name, .encoded = {}, .width = 16, .height = 1, .channels = int(left.size()), .pixels = {}};
-    for (int x = 0; x < source.width; ++x)
-        for (const int code : x < source.width / 2 ? left : right) source.pixels.push_back(std::byte(code));
-    return source;
+    constexpr int kWidth = 16;
+    std::vector<std::byte> pixels;
+    for (int x = 0; x < kWidth; ++x)
+        for (const int code : x < kWidth / 2 ? left : right) pixels.push_back(std::byte(code));
+    return {.name = name,
+            .width = kWidth,
+            .height = 1,
+            .channels = int(left.size()),
+            .pixels = std::move(pixels)};
 }
 
 // A red card of 40 mm, 20 mm over white skin.

@@ -20,7 +20,7 @@ constexpr int kWrinkleSide = 96;
 
 // Waves along u and v that lean by up to `lean`, wide enough for both filters to agree.
 ImageSource waves(const std::string& name, double lean, int count, int side = 64) {
-    ImageSource map{.name = name, .width = side, .height = side, .channels = 3};
+    std::vector<std::byte> pixels;
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
             const auto wave = [&](int i) {
@@ -28,9 +28,9 @@ ImageSource waves(const std::string& name, double lean, int count, int side = 64
             };
             const double nx = wave(x), ny = 0.5 * wave(y);
             for (const double value : {nx, ny, std::sqrt(1 - nx * nx - ny * ny)})
-                map.pixels.push_back(std::byte(std::lround(255 * (0.5 + 0.5 * value))));
+                pixels.push_back(std::byte(std::lround(255 * (0.5 + 0.5 * value))));
         }
-    return map;
+    return {.name = name, .width = side, .height = side, .channels = 3, .pixels = std::move(pixels)};
 }
 
 class Wrinkles : public RenderTest {

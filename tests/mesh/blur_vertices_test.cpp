@@ -10,6 +10,15 @@
 
 using namespace dermis;
 
+namespace {
+
+Result<std::vector<float>> blurred_by(const Mesh& mesh, std::span<const float> values, double variance_mm2) {
+    DERMIS_TRY_ASSIGN(auto blurred, blur_over_surface(mesh, values, std::array{variance_mm2}));
+    return std::move(blurred.front());
+}
+
+}  // namespace
+
 TEST(BlurOverSurface, damps_a_wave_on_a_plane_by_the_gaussians_factor) {
     // exp(-2 pi^2 v / wavelength^2); two implicit steps have (1 + pi^2 v / wavelength^2)^-2.
     const Mesh mesh = make_plane(40, 40, 80);
@@ -17,7 +26,7 @@ TEST(BlurOverSurface, damps_a_wave_on_a_plane_by_the_gaussians_factor) {
     std::vector<float> wave;
     for (const Vec3 p : mesh.positions_mm)
         wave.push_back(float(std::cos(2 * 3.14159265 * p.x / wavelength_mm)));
-    const auto blurred = blur_over_surface(mesh, wave, variance_mm2);
+    const auto blurred = blurred_by(mesh, wave, variance_mm2);
     ASSERT_TRUE(blurred) << blurred.error().message;
     const double square = 9.8696 * variance_mm2 / (wavelength_mm * wavelength_mm);
     for (size_t i = 0; i < wave.size(); ++i) {
@@ -30,8 +39,8 @@ TEST(BlurOverSurface, keeps_a_constant_and_ignores_uv_seams) {
     const Mesh mesh = make_sphere(10, 48);
     std::vector<float> height;
     for (const Vec3 p : mesh.positions_mm) height.push_back(p.x > 0 ? 1.0f : 0.0f);
-    const auto same = blur_over_surface(mesh, std::vector<float>(height.size(), 0.7f), 5);
-    const auto blurred = blur_over_surface(mesh, height, 5);
+    const auto same = blurred_by(mesh, std::vector<float>(height.size(), 0.7f), 5);
+    const auto blurred = blurred_by(mesh, height, 5);
     ASSERT_TRUE(same && blurred);
     for (size_t i = 0; i < height.size(); ++i) {
         EXPECT_NEAR((*same)[i], 0.7, 1e-4);
@@ -46,7 +55,7 @@ TEST(BlurOverSurface, of_no_variance_changes_nothing) {
     const Mesh mesh = make_sphere(10, 12);
     std::vector<float> values;
     for (const Vec3 p : mesh.positions_mm) values.push_back(p.y);
-    const auto blurred = blur_over_surface(mesh, values, 0);
+    const auto blurred = blurred_by(mesh, values, 0);
     ASSERT_TRUE(blurred);
     for (size_t i = 0; i < values.size(); ++i) EXPECT_NEAR((*blurred)[i], values[i], 1e-4);
 }

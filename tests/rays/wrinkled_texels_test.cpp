@@ -11,10 +11,10 @@ namespace dermis {
 namespace {
 
 ImageSource leaning(const std::string& name, float x) {
-    ImageSource map{.name = name, .width = 1, .height = 1, .channels = 3};
+    std::vector<std::byte> pixels;
     for (const float value : {x, 0.0f, std::sqrt(1 - x * x)})
-        map.pixels.push_back(std::byte(std::lround(255 * (0.5f + 0.5f * value))));
-    return map;
+        pixels.push_back(std::byte(std::lround(255 * (0.5f + 0.5f * value))));
+    return {.name = name, .width = 1, .height = 1, .channels = 3, .pixels = std::move(pixels)};
 }
 
 Scene tense_plane(float tension) {

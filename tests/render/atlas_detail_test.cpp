@@ -20,14 +20,14 @@ constexpr double kWaveMm = 1.2, kSeenMm = 12;
 // Normals of the plane that lean along x by a wave shorter than two texels of the light map.
 ImageSource normal_wave() {
     constexpr int kSize = 1024;
-    ImageSource map{.name = "wave", .width = kSize, .height = kSize, .channels = 3};
+    std::vector<std::byte> pixels;
     const auto encoded = [](double v) { return std::byte(std::lround((v * 0.5 + 0.5) * 255)); };
     for (int i = 0; i < kSize * kSize; ++i) {
         const double x_mm = (double(i % kSize) + 0.5) / kSize * double(kSideMm) / 0.8;
         const double lean = 0.2 * std::sin(2 * std::numbers::pi * x_mm / kWaveMm);
-        for (const double v : {lean, 0.0, std::sqrt(1 - lean * lean)}) map.pixels.push_back(encoded(v));
+        for (const double v : {lean, 0.0, std::sqrt(1 - lean * lean)}) pixels.push_back(encoded(v));
     }
-    return map;
+    return {.name = "wave", .width = kSize, .height = kSize, .channels = 3, .pixels = std::move(pixels)};
 }
 
 Scene waves() {

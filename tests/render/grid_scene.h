@@ -65,10 +65,10 @@ inline Scene make_grid_scene() {
 
 /// A normal map of fine stripes that lean left and right.
 inline ImageSource striped_normal_map() {
-    ImageSource map{.name = "stripes", .width = 256, .height = 256, .channels = 3};
+    std::vector<std::byte> pixels;
     for (int i = 0; i < 256 * 256; ++i)
-        for (const int value : {(i / 4) % 2 ? 190 : 65, 127, 215}) map.pixels.push_back(std::byte(value));
-    return map;
+        for (const int value : {(i / 4) % 2 ? 190 : 65, 127, 215}) pixels.push_back(std::byte(value));
+    return {.name = "stripes", .width = 256, .height = 256, .channels = 3, .pixels = std::move(pixels)};
 }
 
 /// The grid's place lit by the studio alone.

@@ -90,13 +90,13 @@ TEST_F(TensionPicture, layers_have_it_beside_the_curvature_in_a_pose_alone) {
 
 // Stripes that lean by `lean` to the left and to the right, as unit vectors.
 ImageSource stripes_of_normals(const std::string& name, double lean, int width_texels) {
-    ImageSource map{.name = name, .width = 64, .height = 64, .channels = 3};
+    std::vector<std::byte> pixels;
     for (int i = 0; i < 64 * 64; ++i) {
         const double x = (i / width_texels) % 2 ? lean : -lean;
         for (const double value : {x, 0.0, std::sqrt(1 - x * x)})
-            map.pixels.push_back(std::byte(std::lround(255 * (0.5 + 0.5 * value))));
+            pixels.push_back(std::byte(std::lround(255 * (0.5 + 0.5 * value))));
     }
-    return map;
+    return {.name = name, .width = 64, .height = 64, .channels = 3, .pixels = std::move(pixels)};
 }
 
 // Lit from the left at 45 degrees, as a normal map shows nothing in even light.

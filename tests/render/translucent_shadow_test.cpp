@@ -127,10 +127,11 @@ TEST_F(TranslucentShadow, takes_one_channel_when_asked) {
 
 TEST_F(TranslucentShadow, reads_the_colours_of_an_opacity_map) {
     SceneObject lens = sheet({0, 0, 0}, 20, MaterialClass::translucent);
-    const std::byte code[] = {std::byte{255}, std::byte{188}, std::byte{0}};
-    lens.mesh.materials[0].opacity_map = {
-        .name = "opacity of the test", .width = 1, .height = 1, .channels = 3};
-    lens.mesh.materials[0].opacity_map.pixels.assign(code, code + 3);
+    lens.mesh.materials[0].opacity_map = {.name = "opacity of the test",
+                                          .width = 1,
+                                          .height = 1,
+                                          .channels = 3,
+                                          .pixels = {std::byte{255}, std::byte{188}, std::byte{0}}};
     const Scene scene = plane_under({lens});
     Renderer renderer = make_renderer(scene);
     expect_near(at(light_map(renderer, {}), 48, 32), Vec3{1, 0.503f, 0} * kIrradiance);

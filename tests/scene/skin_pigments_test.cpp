@@ -66,7 +66,7 @@ TEST(SkinPigments, maps_of_pigments_paint_the_skin_and_choose_its_profile) {
     const std::string maps = kPigmentMesh + "[maps]\nmelanin = \"melanin.png\"\nblood = \"blood.png\"\n";
     const auto red_over_green = [](const Scene& scene, size_t texel) {
         const auto& pixels = scene.objects[0].mesh.materials[0].base_color_map.pixels;
-        return float(pixels.at(3 * texel)) / float(pixels.at(3 * texel + 1));
+        return float(pixels[3 * texel]) / float(pixels[3 * texel + 1]);
     };
     const auto scene = dir.load(maps);
     ASSERT_TRUE(scene) << scene.error().message;
@@ -92,9 +92,12 @@ Scene painted_by_code() {
     Scene scene = load_built_in_scene("builtin:spheres").value();
     for (SceneObject& object : scene.objects)
         for (Material& material : object.mesh.materials) {
-            material.base_color_map = {
-                .name = "painted", .encoded = {}, .width = 1, .height = 1, .channels = 3};
-            for (const int code : {200, 150, 120}) material.base_color_map.pixels.push_back(std::byte(code));
+            material.base_color_map = {.name = "painted",
+                                       .encoded = {},
+                                       .width = 1,
+                                       .height = 1,
+                                       .channels = 3,
+                                       .pixels = {std::byte{200}, std::byte{150}, std::byte{120}}};
             material.melanin_map = grey_texel("own melanin", 51),
             material.blood_map = grey_texel("own blood", 77);
         }
@@ -102,7 +105,7 @@ Scene painted_by_code() {
 }
 std::vector<int> colour_of(const Scene& scene) {
     std::vector<int> codes;
-    for (const std::byte b : scene.objects[0].mesh.materials[0].base_color_map.pixels)
+    for (const std::byte b : scene.objects[0].mesh.materials[0].base_color_map.pixels.span())
         codes.push_back(int(b));
     return codes;
 }

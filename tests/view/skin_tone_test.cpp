@@ -28,9 +28,13 @@ TEST(SkinTone, a_map_counts_where_the_skin_uses_it_and_decoded) {
         object.mesh.uvs.assign(object.mesh.positions_mm.size(), {0.75f, 0.5f});
         for (Material& material : object.mesh.materials) {
             material.base_color_linear = {1, 1, 1};
-            material.base_color_map = {.name = "two texels", .width = 2, .height = 1, .channels = 3};
-            for (const int value : {255, 255, 255, 188, 128, 0})
-                material.base_color_map.pixels.push_back(std::byte(value));
+            constexpr uint8_t kTexels[] = {255, 255, 255, 188, 128, 0};
+            const auto pixels = std::as_bytes(std::span(kTexels));
+            material.base_color_map = {.name = "two texels",
+                                       .width = 2,
+                                       .height = 1,
+                                       .channels = 3,
+                                       .pixels = std::vector(pixels.begin(), pixels.end())};
         }
     }
     const Result<Vec3> mean = mean_skin_albedo(scene);
