@@ -4,14 +4,18 @@
 #include <atomic>
 
 #include "catalog/catalog.h"
+#include "dermis/base/cache.h"
+#include "dermis/base/hash.h"
 #include "dermis/base/progress.h"
 #include "dermis/optics/diffused_normals.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
 #include "dermis/rays/bake_map.h"
+#include "dermis/rays/rays_version.h"
 #include "dermis/render/atlas_check.h"
 #include "dermis/render/complete_scene.h"
 #include "dermis/scene/scene_files.h"
+#include "dermis/scene/scene_hash.h"
 #include "dermis/technique/pass_list.h"
 
 namespace dermis::cli {
@@ -38,7 +42,7 @@ Result<std::array<Vec3, 3>> occlusion_weights(const SkinContext& skin) {
     return weights;
 }
 
-Result<Image> thickness_of(const Scene& scene) {
+Result<Image> bake_thickness(const Scene& scene) {
     constexpr double kSteps = 1000;
     Progress line("thickness", size_t(kSteps));
     std::atomic<size_t> shown = 0;
@@ -53,6 +57,18 @@ Result<Image> thickness_of(const Scene& scene) {
     });
     if (!map) return map.error();
     return std::move(map->values);
+}
+
+Result<Image> thickness_of(const Scene& scene) {
+    Hasher hasher;
+    hasher.add(rays_version()).add(kThicknessSize).add(kThicknessMaxMm);
+    for (const SceneObject& object : scene.objects) {
+        add_shape(hasher, object);
+        hasher.add(atlas_uvs_of(object.mesh));
+    }
+    return cached(
+        "thickness", hasher.hex(), Image(kThicknessSize, kThicknessSize, 1),
+        [&] { return bake_thickness(scene); }, [](Image& image) { return std::tie(image.bytes); });
 }
 
 // Empty where the head cannot have them; the warning says why.

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dermis/base/cache.h"
+#include "dermis/base/hash.h"
 #include "dermis/base/progress.h"
 #include "dermis/mesh/curvature.h"
+#include "dermis/rays/rays_version.h"
 #include "dermis/scene/pose_scene.h"
+#include "dermis/scene/scene_hash.h"
 
 namespace dermis::inline engines {
 namespace {
@@ -13,6 +17,13 @@ namespace {
 int8_t steps_of(float change_per_mm) {
     const float part = std::clamp(change_per_mm / kMostMeanCurvatureChange, -1.0f, 1.0f);
     return int8_t(std::lround(part * kCurvatureSteps));
+}
+
+Result<std::vector<float>> cached_curvature(const SceneObject& object) {
+    Hasher hasher;
+    add_shape(hasher.add(rays_version()).add(kCurvatureSmoothingMm), object);
+    return cached("mean_curvature", hasher.hex(), std::vector<float>(object.mesh.positions_mm.size()),
+                  [&] { return Result(compute_curvature(object.mesh, kCurvatureSmoothingMm)); });
 }
 
 }  // namespace
@@ -33,7 +44,7 @@ Result<std::vector<TargetCurvature>> target_curvatures(const SceneObject& object
         Pose changed = pose;
         changed.morph[name] = after;
         DERMIS_TRY(poser.pose(changed, alone));
-        const std::vector<float> curvatures = compute_curvature(alone.objects[0].mesh, kCurvatureSmoothingMm);
+        DERMIS_TRY_ASSIGN(const std::vector<float> curvatures, cached_curvature(alone.objects[0]));
         TargetCurvature target{.name = name, .changes = {}};
         for (size_t v = 0; v < curvatures.size(); ++v)
             target.changes.push_back(
