@@ -228,7 +228,7 @@ TEST_F(WebPageFolder, in_a_browser_a_sphere_of_8_mm_is_the_renderers_own) {
         directory_.path);
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
     const ProgramResult shot =
-        run_script("shot " + folder.string() + " " + theirs.string() + " " + std::to_string(kSphereSide));
+        run_script("shot " + folder.string() + " " + std::to_string(kSphereSide) + " " + theirs.string());
     ASSERT_EQ(shot.exit_code, 0) << shot.err;
     const Image a = read_image(ours, ImageUse::color)->image, b = read_image(theirs, ImageUse::color)->image;
     ASSERT_EQ(b.width, kSphereSide);
@@ -260,12 +260,18 @@ class MovingPage : public WebPageFolder {
         EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
         return read_image(path, ImageUse::color)->image;
     }
-    Image theirs(const fs::path& folder, const std::string& query) {
-        const fs::path path = directory_.path / "theirs.png";
-        const ProgramResult shot =
-            run_script("shot " + folder.string() + " " + path.string() + " 256 '" + query + "'");
+    std::vector<Image> theirs(const fs::path& folder, const std::vector<std::string>& queries) {
+        std::vector<fs::path> paths;
+        std::string arguments = "shot " + folder.string() + " 256";
+        for (const std::string& query : queries) {
+            paths.push_back(directory_.path / ("theirs_" + std::to_string(paths.size()) + ".png"));
+            arguments += " '" + paths.back().string() + "?" + query + "'";
+        }
+        const ProgramResult shot = run_script(arguments);
         EXPECT_EQ(shot.exit_code, 0) << shot.err;
-        return read_image(path, ImageUse::color)->image;
+        std::vector<Image> images;
+        for (const fs::path& path : paths) images.push_back(read_image(path, ImageUse::color)->image);
+        return images;
     }
     // The part of the change from `rest` to `posed` that another renderer does not draw: 0 the same, 1
     // nothing moves.
@@ -290,8 +296,8 @@ TEST_F(MovingPage, in_a_browser_a_pose_of_a_clip_is_the_renderers) {
          {std::tuple{"nod", "sheet.gltf", "eye_mm = [60, 40, 500]\ntarget_mm = [0, 0, 20]"},
           {"greet", "builtin:bust", "eye_mm = [150, 20, 500]\ntarget_mm = [0, -20, 40]"}}) {
         const fs::path scene = write_scene(mesh, camera), folder = write_page(scene.string());
-        const Image rest = theirs(folder, ""),
-                    posed = theirs(folder, std::string("clip=") + clip + "&time=1.7");
+        const std::vector<Image> pictures = theirs(folder, {"", std::string("clip=") + clip + "&time=1.7"});
+        const Image &rest = pictures[0], &posed = pictures[1];
         ASSERT_EQ(posed.width, 256);
         const Image our_rest = ours(scene, ""),
                     our_posed = ours(scene, std::string("--clip ") + clip + " --time 1.7");
@@ -308,12 +314,12 @@ TEST_F(MovingPage, in_a_browser_has_the_curvature_of_its_targets) {
     const fs::path scene = write_scene("sheet.gltf", "eye_mm = [60, 40, 500]\ntarget_mm = [0, 0, 20]"),
                    folder = write_page(scene.string());
     const std::string moment = "clip=nod&time=1.7", ours_then = "--clip nod --time 1.7";
-    const Image followed = theirs(folder, moment);
+    const Image followed = theirs(folder, {moment})[0];
     auto json = scene_of(folder);
     auto& target = json["objects"][0]["motion"]["meshes"][0]["primitives"][0]["targets"][0];
     EXPECT_EQ(target.erase("CURVATURE"), 1u);
     ASSERT_TRUE(write_text_file(folder / "scene.json", json.dump()));
-    const Image kept = theirs(folder, moment);
+    const Image kept = theirs(folder, {moment})[0];
     const Image our_kept = ours(scene, ours_then + " --scene animation.rest_bakes=curvature"),
                 our_posed = ours(scene, ours_then);
     const double error = missed(our_kept, our_posed, kept, followed);

@@ -227,14 +227,17 @@ def posed(file):
             yield primitive, positions
 
 
-def evaluate(path, clip_name, time):
-    file = File(path)
-    clips = [a for a in file.json.get("animations", []) if a["name"] == clip_name]
-    if clips:
-        play(file, clips[0], time)
-    for _, positions in posed(file):
-        for p in positions:
-            print("%.9g %.9g %.9g" % tuple(1000 * v for v in p))
+# Of each time a list of positions; an empty line ends it.
+def evaluate(path, clip_name, times):
+    for time in times:
+        file = File(path)
+        clips = [a for a in file.json.get("animations", []) if a["name"] == clip_name]
+        if clips:
+            play(file, clips[0], time)
+        for _, positions in posed(file):
+            for p in positions:
+                print("%.9g %.9g %.9g" % tuple(1000 * v for v in p))
+        print()
 
 
 # Writing -----------------------------------------------------------------------------------------------------
@@ -404,4 +407,4 @@ if __name__ == "__main__":
     if sys.argv[1] == "write":
         write(sys.argv[2])
     else:
-        evaluate(sys.argv[2], sys.argv[3], float(sys.argv[4]))
+        evaluate(sys.argv[2], sys.argv[3], [float(time) for time in sys.argv[4:]])

@@ -2,21 +2,24 @@
 //
 //     node web_page.mjs CHROMIUM drive FOLDER              moves every control and checks that the pixels follow
 //     node web_page.mjs CHROMIUM clips FOLDER              plays the first clip, pauses it, moves its time
-//     node web_page.mjs CHROMIUM shot FOLDER PICTURE SIDE [QUERY]
-//                                                          the picture alone, without controls, as PNG; QUERY: clip=NAME&time=SECONDS
+//     node web_page.mjs CHROMIUM shot FOLDER SIDE PICTURE[?QUERY]...
+//                                                          pictures alone, without controls, as PNG; QUERY: clip=NAME&time=SECONDS
 //     node web_page.mjs CHROMIUM load FOLDER               prints when the first picture was there, at 1280 x 800
 
 import { writeFileSync } from "node:fs";
 import { openBrowser, serve, until } from "./browser.mjs";
 
-const [chromium, mode, folder, output, side, query = ""] = process.argv.slice(2);
+const [chromium, mode, folder, side, ...pictures] = process.argv.slice(2);
 const kDrawn = "document.body.dataset.state === 'drawn'", kEnded = "['drawn', 'error'].includes(document.body?.dataset.state)";
 
+const visit = async (page, server, query) => {
+  await page.load(`${server.origin}/${query}`);
+  await until(page, kEnded, "the first picture");
+};
 const open = async (server, size, query = "", prepare = "") => {
   const page = await openBrowser(chromium, size);
   if (prepare) await page.call("Page.addScriptToEvaluateOnNewDocument", { source: prepare });
-  await page.call("Page.navigate", { url: `${server.origin}/${query}` });
-  await until(page, kEnded, "the first picture");
+  await visit(page, server, query);
   return page;
 };
 const check = (good, message) => { if (!good) throw new Error(message); };
@@ -171,11 +174,16 @@ async function checkMessages(server) {
   }
 }
 
+// All pictures by one browser: it takes seconds to start.
 async function shoot(server) {
-  const page = await open(server, { width: Number(side), height: Number(side) }, `?controls=0&${query}`);
+  const page = await openBrowser(chromium, { width: Number(side), height: Number(side) });
   try {
-    check(await page.evaluate(kDrawn), await page.evaluate("document.getElementById('message').textContent"));
-    writeFileSync(output, Buffer.from((await page.call("Page.captureScreenshot", { format: "png" })).data, "base64"));
+    for (const picture of pictures) {
+      const [output, query = ""] = picture.split("?");
+      await visit(page, server, `?controls=0&${query}`);
+      check(await page.evaluate(kDrawn), await page.evaluate("document.getElementById('message').textContent"));
+      writeFileSync(output, Buffer.from((await page.call("Page.captureScreenshot", { format: "png" })).data, "base64"));
+    }
   } finally {
     await page.close();
   }
