@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "dermis/base/parallel.h"
 #include "dermis/base/vec.h"
 #include "dermis/image/dilate.h"
 #include "dermis/image/resample.h"
@@ -43,16 +44,19 @@ Image to_half_image(const Image& image, int channels) {
 // Unit normals in 16 bits: the length in smaller levels then tells how far the normals differ. In 8 bits,
 // rounded at every level, a mean of shallow bumps would be off by half of their slope.
 Image to_normals(const Image& image) {
+    if (image.encoding != Encoding::linear) return to_normals(to_linear_float(image));
     Image normals(image.width, image.height, 4, PixelFormat::u16);
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) {
-            Vec3 n = {image.at(x, y, 0) * 2 - 1, image.at(x, y, 1) * 2 - 1, image.at(x, y, 2) * 2 - 1};
-            n = dot(n, n) > 0 ? normalize(n) : Vec3{0, 0, 1};
-            normals.set(x, y, 0, n.x * 0.5f + 0.5f);
-            normals.set(x, y, 1, n.y * 0.5f + 0.5f);
-            normals.set(x, y, 2, n.z * 0.5f + 0.5f);
-            normals.set(x, y, 3, 1);
-        }
+    parallel_for(size_t(image.height), 16, [&](size_t begin, size_t end) {
+        for (int y = int(begin); y < int(end); ++y)
+            for (int x = 0; x < image.width; ++x) {
+                Vec3 n = {image.at(x, y, 0) * 2 - 1, image.at(x, y, 1) * 2 - 1, image.at(x, y, 2) * 2 - 1};
+                n = dot(n, n) > 0 ? normalize(n) : Vec3{0, 0, 1};
+                normals.set(x, y, 0, n.x * 0.5f + 0.5f);
+                normals.set(x, y, 1, n.y * 0.5f + 0.5f);
+                normals.set(x, y, 2, n.z * 0.5f + 0.5f);
+                normals.set(x, y, 3, 1);
+            }
+    });
     return normals;
 }
 
@@ -181,7 +185,7 @@ Result<LoadedMap> load_layers(const MaterialMap& map, const Material& material, 
             loaded.warning = of_layer.name + ": given as a normal map, but " + *doubt;
         if (material.dilate_texels > 0)
             dilate(image, atlas_mask(mesh, image.width, image.height), material.dilate_texels);
-        layers[layer] = to_normals(to_linear_float(image));
+        layers[layer] = to_normals(image);
         width = std::max(width, image.width), height = std::max(height, image.height);
     }
     loaded.texture = {.name = source.name,
@@ -229,7 +233,7 @@ Result<LoadedMap> load_material_map(const MaterialMap& map, const Material& mate
         data.bytes = single.format == PixelFormat::u8 ? single.bytes : to_half_image(single, 1).bytes;
     } else if (map.is_normals && image.channels >= 3) {
         data.format = ImageFormat::rgba16;
-        data.bytes = to_normals(to_linear_float(image)).bytes;
+        data.bytes = to_normals(image).bytes;
     } else if (image.format == PixelFormat::u8) {
         data.format = ImageFormat::rgba8;
         data.srgb = image.encoding == Encoding::srgb;
