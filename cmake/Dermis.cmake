@@ -15,13 +15,26 @@ add_library(dermis_standard_headers OBJECT ${PROJECT_BINARY_DIR}/standard_header
 target_compile_options(dermis_standard_headers PRIVATE ${DERMIS_WARNINGS})
 target_precompile_headers(dermis_standard_headers PRIVATE ${DERMIS_STANDARD_HEADERS})
 
-# dermis_quick_build(target [SEPARATE]): both for one library.
-#   SEPARATE  only the precompiled header: its files use the same names, as every technique has its Params
+# dermis_quick_build(target [BY_FOLDER]): both for one library.
+#   BY_FOLDER  the files of each folder for themselves: several folders use the same names, as every technique has its Params
 function(dermis_quick_build target)
-    cmake_parse_arguments(arg "SEPARATE" "" "" ${ARGN})
+    cmake_parse_arguments(arg "BY_FOLDER" "" "" ${ARGN})
     target_precompile_headers(${target} REUSE_FROM dermis_standard_headers)
-    if(DERMIS_UNITY AND NOT arg_SEPARATE)
-        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    if(NOT DERMIS_UNITY)
+        return()
+    endif()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    if(arg_BY_FOLDER)
+        set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+        get_target_property(sources ${target} SOURCES)
+        set(index 0)
+        foreach(source ${sources})  # sorted by folder
+            get_filename_component(folder ${source} DIRECTORY)
+            get_filename_component(folder "${folder}" NAME)
+            math(EXPR batch "${index} / 8")
+            set_source_files_properties(${source} PROPERTIES UNITY_GROUP "${folder}_${batch}")
+            math(EXPR index "${index} + 1")
+        endforeach()
     endif()
 endfunction()
 

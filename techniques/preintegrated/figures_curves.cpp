@@ -14,7 +14,7 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 
 constexpr const char* kClose = "distance_mm=600";
 constexpr const char* kNear = "target_mm=14,36,80 distance_mm=400 fov_deg=14";
-constexpr const char* kSource = "after Yeung 2015, Pre-Integrated Skin Shading";
+constexpr const char* kYeungSource = "after Yeung 2015, Pre-Integrated Skin Shading";
 
 // What every table and curve can have, so that a difference is theirs.
 const std::pair<std::string, std::string> kNormals = {"normals", "blended"};
@@ -71,7 +71,7 @@ Figure curves_figure() {
         .id = "curves",
         .title =
             "The curves and the ring that they were fitted to: N·L to the right, r from 2 to 16 mm downwards",
-        .source = std::string(kSource) + ": shapes of the diffusion curves",
+        .source = std::string(kYeungSource) + ": shapes of the diffusion curves",
         .scene = "builtin:spheres",
         .rows = {{"", {ring, curves, difference}}}};
 }
@@ -159,7 +159,8 @@ const std::vector<Variant>& sphere_variants() {
 
 Figure spheres_figure(std::string id, std::string title, std::string environment) {
     Figure figure = {.id = std::move(id), .title = std::move(title), .scene = "builtin:spheres"};
-    figure.source = std::string(kSource) + ": spheres of radius 2, 4, 8, 16 mm, table above, curves below";
+    figure.source =
+        std::string(kYeungSource) + ": spheres of radius 2, 4, 8, 16 mm, table above, curves below";
     figure.note = "All spheres are drawn at the same size.";
     for (const Variant& variant : sphere_variants()) {
         FigureRow row = {.label = variant.name};
@@ -181,7 +182,7 @@ Figure spheres_figure(std::string id, std::string title, std::string environment
 // Columns table, curves, Lambert; with albedo above, light alone below.
 Figure heads_figure(std::string id, std::string title, const FigureCell& common) {
     Figure figure = {.id = std::move(id), .title = std::move(title)};
-    figure.source = std::string(kSource) + ": head with table, curves and Lambert";
+    figure.source = std::string(kYeungSource) + ": head with table, curves and Lambert";
     for (const CellAlbedo albedo : {CellAlbedo::mapped, CellAlbedo::white}) {
         const std::string suffix = albedo == CellAlbedo::white ? "_light" : "";
         FigureRow row = {.label = albedo == CellAlbedo::white ? "Without albedo" : "With albedo"};
@@ -222,7 +223,7 @@ Figure together_figure() {
     };
     return {.id = "environments",
             .title = "Direct and indirect light with GGX and a prefiltered environment",
-            .source = std::string(kSource) + ": everything together, and another environment",
+            .source = std::string(kYeungSource) + ": everything together, and another environment",
             .rows = {
                 {"",
                  {cell("studio", "studio", 0, "final"), cell("sunset", "assets:hdri/sunset.hdr", 60, "final"),
@@ -254,7 +255,7 @@ Figure baselines_figure() {
     for (FigureCell& cell : baselines.cells) cell.compare_to = "sphere";
     return {.id = "baselines",
             .title = "Baselines and every table variant",
-            .source = std::string(kSource) + ": Oren-Nayar on the left, pre-integrated on the right",
+            .source = std::string(kYeungSource) + ": Oren-Nayar on the left, pre-integrated on the right",
             .rows = {variants, baselines}};
 }
 

@@ -5,8 +5,8 @@
 namespace dermis::preintegrated {
 namespace {
 
-constexpr const char* kSource = "after a Unity implementation of Penner 2011";
-constexpr const char* kClose = "distance_mm=520";
+constexpr const char* kUnitySource = "after a Unity implementation of Penner 2011";
+constexpr const char* kUnityCamera = "distance_mm=520";
 constexpr const char* kMouth = "target_mm=-4,14,85 distance_mm=400 fov_deg=12";
 constexpr const char* kNoseShadow = "target_mm=22,42,80 distance_mm=400 fov_deg=10";
 
@@ -61,7 +61,7 @@ Figure table_figure() {
     sphere.cells[0].compare_to = "ring";
     return {.id = "table",
             .title = "The table itself: N·L from -1 to 1 to the right, 1/r from 0 to 1/mm downwards",
-            .source = std::string(kSource) + ": the lookup texture, as stored and in linear space",
+            .source = std::string(kUnitySource) + ": the lookup texture, as stored and in linear space",
             .note =
                 "A table is data. Read as an sRGB texture it gives the shading of the left column instead of "
                 "the right: too dark near the terminator, as the article's author found.",
@@ -94,7 +94,7 @@ Figure curvature_figure() {
                             .gain = 32});
     return {.id = "curvature",
             .title = "Curvature",
-            .source = std::string(kSource) + ": the curvature of the model",
+            .source = std::string(kUnitySource) + ": the curvature of the model",
             .note =
                 "Derivatives of the interpolated normal are constant within a facet, so the facets are "
                 "visible; the estimate at the vertices is smoothed over 1.8 mm of skin. By default the "
@@ -122,7 +122,7 @@ Figure normals_figure() {
                        difference_cell("what baked changes", "baked", "sharp", 4)}};
     return {.id = "normals",
             .title = "Scattering at small bumps",
-            .source = std::string(kSource) + ": \"Softening Finer Details\", mip bias 3.0",
+            .source = std::string(kUnitySource) + ": \"Softening Finer Details\", mip bias 3.0",
             .note =
                 "The article tunes the weights of lerp by eye; here they follow from the profile and the "
                 "map's scale in mm. Three levels up, texels at the nostril's rim average normals that "
@@ -136,7 +136,7 @@ Figure parts_figure() {
                            .id = technique + view,
                            .technique = technique,
                            .view = std::move(view),
-                           .camera = kClose};
+                           .camera = kUnityCamera};
         made.settings = {{"specular", "ksk"}};
         return made;
     };
@@ -150,7 +150,7 @@ Figure parts_figure() {
             .title =
                 "Lambert, and the parts of preintegrated: Kelemen/Szirmay-Kalos with the Beckmann table and "
                 "Schlick's Fresnel",
-            .source = std::string(kSource) + ": the start, before specular, specular, and both combined",
+            .source = std::string(kUnitySource) + ": the start, before specular, specular, and both combined",
             .rows = {row}};
 }
 

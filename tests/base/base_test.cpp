@@ -10,6 +10,7 @@
 #include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
 #include "dermis/base/result.h"
+#include "dermis/base/shared_bytes.h"
 #include "dermis/base/stop.h"
 #include "dermis/base/text.h"
 #include "support/environment.h"
@@ -24,6 +25,15 @@ TEST(Error, keeps_its_code_when_a_place_is_put_before_it) {
     EXPECT_EQ(placed.message, "script.txt:3: the GPU was lost");
     EXPECT_EQ(placed.code, ErrorCode::device_lost);
     EXPECT_EQ(Error{"no file"}.code, ErrorCode::general);
+}
+
+TEST(SharedBytes, are_shared_by_copies_and_compared_by_value) {
+    const SharedBytes bytes = {std::byte{1}, std::byte{2}}, copy = bytes;
+    EXPECT_EQ(copy.span().data(), bytes.span().data());
+    EXPECT_EQ(copy, SharedBytes(std::vector{std::byte{1}, std::byte{2}}));
+    EXPECT_NE(copy, SharedBytes({std::byte{1}, std::byte{3}}));
+    EXPECT_TRUE(SharedBytes().empty());
+    EXPECT_EQ(SharedBytes(), SharedBytes(std::vector<std::byte>()));
 }
 
 TEST(Text, numbers_round_trip_in_their_shortest_form) {

@@ -60,6 +60,18 @@ TEST(BlurOverSurface, of_no_variance_changes_nothing) {
     for (size_t i = 0; i < values.size(); ++i) EXPECT_NEAR((*blurred)[i], values[i], 1e-4);
 }
 
+TEST(BlurOverSurface, by_several_variances_is_by_each) {
+    const Mesh mesh = make_sphere(10, 12);
+    std::vector<float> values;
+    for (const Vec3 p : mesh.positions_mm) values.push_back(p.y);
+    const auto both = blur_over_surface(mesh, values, std::array{8.0, 0.5});
+    ASSERT_TRUE(both);
+    ASSERT_EQ(both->size(), 2u);
+    EXPECT_EQ((*both)[0], *blurred_by(mesh, values, 8));
+    EXPECT_EQ((*both)[1], *blurred_by(mesh, values, 0.5));
+    EXPECT_NE((*both)[0], (*both)[1]);
+}
+
 TEST(FitOverSurface, finds_a_linear_function_from_samples_anywhere_in_the_triangles) {
     const Mesh mesh = make_plane(10, 10, 4);
     std::vector<SurfaceSamples> samples(mesh.triangle_count());
