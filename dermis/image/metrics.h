@@ -67,12 +67,4 @@ inline constexpr double kFlipPixelsPerDegree = 67.02;
 /// Mean of a one-channel map over the mask.
 [[nodiscard]] Result<double> mean_of(const Image& map, const Image& mask = {});
 
-struct ErrorReport {
-    double max_abs = 0, rmse = 0, rel_mse = 0, psnr_db = 0, ssim = 0, ciede2000 = 0, flip = 0;
-};
-/// All of the above.
-[[nodiscard]] Result<ErrorReport> compare_images(const Image& image, const Image& reference,
-                                                 const Image& mask = {},
-                                                 double pixels_per_degree = kFlipPixelsPerDegree);
-
 }  // namespace dermis::inline image

@@ -25,11 +25,6 @@ double f0_of_eta(double eta) {
     return root * root;
 }
 
-double eta_of_f0(double f0) {
-    const double root = std::sqrt(f0);
-    return (1 + root) / (1 - root);
-}
-
 double diffuse_internal_reflectance(double eta) {
     return -1.440 / (eta * eta) + 0.710 / eta + 0.668 + 0.0636 * eta;
 }

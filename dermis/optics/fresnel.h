@@ -14,8 +14,6 @@ namespace dermis::inline optics {
 
 /// Reflectance at normal incidence, ((eta - 1) / (eta + 1))^2: 0.017 for 1.3, 0.0278 for 1.4.
 [[nodiscard]] double f0_of_eta(double eta);
-/// Its inverse for eta >= 1; f0 in 0..1 (exclusive).
-[[nodiscard]] double eta_of_f0(double f0);
 
 /// The part of diffuse light inside a medium of index eta >= 1 that its boundary sends back, as a fit to the
 /// hemispherical integral: -1.440/eta^2 + 0.710/eta + 0.668 + 0.0636 eta. Source: Egan, Hilgeman 1979, as in

@@ -1,4 +1,4 @@
-// The metrics of single texels, and the report of all metrics.
+// The metrics of single texels.
 
 #include <algorithm>
 #include <cmath>
@@ -73,16 +73,6 @@ double mean(const Sum& sum) {
     return sum.total / double(sum.count);
 }
 
-template <class Value>
-bool assign(double& to, const Result<Value>& from, Error& error) {
-    if (!from) {
-        error = from.error();
-        return false;
-    }
-    to = *from;
-    return true;
-}
-
 }  // namespace
 
 Result<double> max_abs_error(const Image& image, const Image& reference, const Image& mask) {
@@ -134,21 +124,6 @@ Result<double> mean_of(const Image& map, const Image& mask) {
     return mean(sum_over(map.width, map.height, mask, [&](int x, int y) {
         return Sum{linear.at(x, y, 0), 0, 1};
     }));
-}
-
-Result<ErrorReport> compare_images(const Image& image, const Image& reference, const Image& mask,
-                                   double pixels_per_degree) {
-    ErrorReport report;
-    Error error;
-    const bool ok = assign(report.max_abs, max_abs_error(image, reference, mask), error) &&
-                    assign(report.rmse, rmse(image, reference, mask), error) &&
-                    assign(report.rel_mse, rel_mse(image, reference, mask), error) &&
-                    assign(report.psnr_db, psnr_db(image, reference, mask), error) &&
-                    assign(report.ssim, ssim(image, reference, mask), error) &&
-                    assign(report.ciede2000, mean_ciede2000(image, reference, mask), error) &&
-                    assign(report.flip, mean_flip(image, reference, mask, pixels_per_degree), error);
-    if (!ok) return error;
-    return report;
 }
 
 }  // namespace dermis::inline image
