@@ -11,6 +11,7 @@
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
 #include "dermis/rays/bake_map.h"
+#include "dermis/rays/ray_scene.h"
 #include "dermis/rays/rays_version.h"
 #include "dermis/render/atlas_check.h"
 #include "dermis/render/complete_scene.h"
@@ -60,6 +61,7 @@ Result<Image> bake_thickness(const Scene& scene) {
 }
 
 Result<Image> thickness_of(const Scene& scene) {
+    if (has_cut_outs(scene.objects)) return bake_thickness(scene);
     Hasher hasher;
     hasher.add(rays_version()).add(kThicknessSize).add(kThicknessMaxMm);
     for (const SceneObject& object : scene.objects) {

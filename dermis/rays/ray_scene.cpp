@@ -181,6 +181,13 @@ void collect(const RTCFilterFunctionNArguments* arguments) {
 
 }  // namespace
 
+bool has_cut_outs(std::span<const SceneObject> objects) {
+    return std::ranges::any_of(objects, [](const SceneObject& object) {
+        return std::ranges::any_of(object.mesh.materials,
+                                   [](const Material& m) { return cutoff_of_map(m) > 0; });
+    });
+}
+
 struct RayScene::Impl {
     DevicePointer device;
     std::array<TriangleSet, 5> sets;

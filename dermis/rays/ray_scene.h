@@ -74,6 +74,10 @@ struct SurfaceAttributes {
     UvFootprint footprint = {};  ///< what maps are averaged over; surface_at leaves it zero
 };
 
+/// Whether alpha maps cut some of the objects out: what rays find then depends on images, which add_shape()
+/// (scene/scene_hash.h) does not hash, so it is not cached.
+[[nodiscard]] bool has_cut_outs(std::span<const SceneObject> objects);
+
 /// Immutable once built; every query is const and safe from any thread. Keeps pointers to the meshes: they
 /// must outlive it and not change. About 100 bytes a triangle; 20 ms for 17,684 triangles.
 class RayScene {

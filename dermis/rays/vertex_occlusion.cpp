@@ -15,14 +15,6 @@
 namespace dermis::inline rays {
 namespace {
 
-// The hash does not cover alpha maps.
-bool has_cut_outs(std::span<const SceneObject> objects) {
-    return std::ranges::any_of(objects, [](const SceneObject& object) {
-        return std::ranges::any_of(object.mesh.materials,
-                                   [](const Material& m) { return cutoff_of_map(m) > 0; });
-    });
-}
-
 // Equal for vertices that differ only by a UV seam.
 uint32_t seed_of(Vec3 p_mm, Vec3 n) {
     uint32_t seed = 0;

@@ -7,6 +7,8 @@
 #include <filesystem>
 
 #include "cli/run_program.h"
+#include "dermis/base/file.h"
+#include "dermis/image/io.h"
 #include "support/environment.h"
 #include "support/temporary_directory.h"
 
@@ -72,6 +74,34 @@ TEST_F(Export, walks_the_gain_only_for_functions_that_need_it) {
     };
     EXPECT_FALSE(has_cache("skin_diffuse,skin_gather_trust"));
     EXPECT_TRUE(has_cache("skin_gain"));
+}
+
+// Skin 5 mm over a card, whose alpha map alone differs.
+TEST_F(Export, does_not_take_a_thickness_from_the_cache_that_another_alpha_map_gave) {
+    const EnvironmentVariable cache("DERMIS_CACHE", out("cache"));
+    const auto write = [&](const std::string& name, const std::string& text) {
+        ASSERT_TRUE(write_text_file(scratch_.path / name, text));
+    };
+    write("sheet.obj",
+          "mtllib sheet.mtl\nv -20 -20 0\nv 20 -20 0\nv 20 20 0\nv -20 20 0\nv -20 -20 -5\nv 20 -20 -5\n"
+          "v 20 20 -5\nv -20 20 -5\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl skin\nf 1/1 2/2 3/3 4/4\n"
+          "usemtl card\nf 5/1 6/2 7/3 8/4\n");
+    write("sheet.mtl", "newmtl skin\nnewmtl card\nmap_d card.png\n");
+    write("scene.toml",
+          "[[mesh]]\nfile = \"sheet.obj\"\nunit_mm = 1\n[material.skin]\nclass = \"skin\"\n"
+          "[material.card]\nclass = \"other\"\n");
+    const auto thickness_behind = [&](float alpha) {
+        Image card(4, 4, 1, PixelFormat::u8);
+        for (int i = 0; i < 16; ++i) card.set(i % 4, i / 4, 0, alpha);
+        EXPECT_TRUE(write_image(scratch_.path / "card.png", card));
+        const ProgramResult made = dermis("export --engine unity " + (scratch_.path / "scene.toml").string() +
+                                          " -o " + out("package"));
+        EXPECT_EQ(made.exit_code, 0) << made.err;
+        const auto map = read_image(out("package/Head/thickness.png"), ImageUse::data);
+        return map ? map->image.at(map->image.width / 2, map->image.height / 2, 0) : -1;
+    };
+    EXPECT_LT(thickness_behind(1), 0.5f);
+    EXPECT_EQ(thickness_behind(0), 1) << "there is nothing behind";
 }
 
 TEST_F(Export, refuses_wrong_options_and_leaves_nothing) {
