@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dermis/base/cache.h"
-#include "dermis/base/hash.h"
 #include "dermis/base/progress.h"
 #include "dermis/mesh/curvature.h"
-#include "dermis/rays/rays_version.h"
+#include "dermis/render/complete_scene.h"
 #include "dermis/scene/pose_scene.h"
-#include "dermis/scene/scene_hash.h"
 
 namespace dermis::inline engines {
 namespace {
@@ -17,13 +14,6 @@ namespace {
 int8_t steps_of(float change_per_mm) {
     const float part = std::clamp(change_per_mm / kMostMeanCurvatureChange, -1.0f, 1.0f);
     return int8_t(std::lround(part * kCurvatureSteps));
-}
-
-Result<std::vector<float>> cached_curvature(const SceneObject& object) {
-    Hasher hasher;
-    add_shape(hasher.add(rays_version()).add(kCurvatureSmoothingMm), object);
-    return cached("mean_curvature", hasher.hex(), std::vector<float>(object.mesh.positions_mm.size()),
-                  [&] { return Result(compute_curvature(object.mesh, kCurvatureSmoothingMm)); });
 }
 
 }  // namespace
@@ -44,11 +34,11 @@ Result<std::vector<TargetCurvature>> target_curvatures(const SceneObject& object
         Pose changed = pose;
         changed.morph[name] = after;
         DERMIS_TRY(poser.pose(changed, alone));
-        DERMIS_TRY_ASSIGN(const std::vector<float> curvatures, cached_curvature(alone.objects[0]));
+        DERMIS_TRY_ASSIGN(const std::vector<CurvatureTensor> then, cached_curvature(alone.objects[0]));
         TargetCurvature target{.name = name, .changes = {}};
-        for (size_t v = 0; v < curvatures.size(); ++v)
+        for (size_t v = 0; v < then.size(); ++v)
             target.changes.push_back(
-                steps_of((curvatures[v] - mean_curvature(in_pose[v])) / (after - before)));
+                steps_of((mean_curvature(then[v]) - mean_curvature(in_pose[v])) / (after - before)));
         if (std::ranges::any_of(target.changes, [](int8_t change) { return change != 0; }))
             all.push_back(std::move(target));
         progress.advance(1);

@@ -15,13 +15,6 @@
 namespace dermis::inline render {
 namespace {
 
-Result<std::vector<CurvatureTensor>> cached_curvature(const SceneObject& object) {
-    Hasher hasher;
-    add_shape(hasher.add("curvature 3").add(kCurvatureSmoothingMm), object);
-    return cached("curvature", hasher.hex(), std::vector<CurvatureTensor>(object.mesh.positions_mm.size()),
-                  [&] { return Result(compute_curvature_tensors(object.mesh, kCurvatureSmoothingMm)); });
-}
-
 bool has_occlusion(const SceneObject& object) {
     return object.mesh.occlusions.size() == object.mesh.positions_mm.size();
 }
@@ -43,6 +36,13 @@ Result<void> complete_objects(std::vector<SceneObject>& objects) {
 }
 
 }  // namespace
+
+Result<std::vector<CurvatureTensor>> cached_curvature(const SceneObject& object) {
+    Hasher hasher;
+    add_shape(hasher.add("curvature 3").add(kCurvatureSmoothingMm), object);
+    return cached("curvature", hasher.hex(), std::vector<CurvatureTensor>(object.mesh.positions_mm.size()),
+                  [&] { return Result(compute_curvature_tensors(object.mesh, kCurvatureSmoothingMm)); });
+}
 
 Result<void> complete_scene(Scene& scene) {
     DERMIS_TRY(complete_objects(scene.objects));

@@ -12,6 +12,9 @@ namespace dermis::inline render {
 /// costs a file read. Then lay_out_skin_atlas().
 [[nodiscard]] Result<void> complete_scene(Scene& scene);
 
+/// One per vertex: its tensor, averaged over kCurvatureSmoothingMm. Cached by content.
+[[nodiscard]] Result<std::vector<CurvatureTensor>> cached_curvature(const SceneObject& object);
+
 /// One per vertex: its occlusion blurred over the surface by three variances (kOcclusionVariance0Mm2 and
 /// following); 1 where the mesh has none. Cached by content. Errors as blur_over_surface().
 [[nodiscard]] Result<std::vector<Vec3>> blurred_occlusions(const Mesh& mesh);
