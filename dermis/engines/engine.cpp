@@ -7,6 +7,7 @@
 
 #include "dermis/base/file.h"
 #include "dermis/base/hash.h"
+#include "dermis/engines/head_maps.h"
 
 namespace dermis::inline engines {
 namespace {
@@ -28,10 +29,11 @@ void add_unity_words(const PackageInput& input, Words& words) {
 }
 
 // The importer's settings are of the kind of file. Of a head, scene.json is a text and all maps have mip
-// levels.
+// levels, but the table.
 std::string import_kind(const std::string& path, std::string_view head_path) {
     const std::string kind = path.substr(path.rfind('.') + 1);
     if (!path.starts_with(head_path)) return kind;
+    if (path.ends_with(kReflectedShares)) return kind;
     return kind == "json" ? "md" : kind == "exr" ? "png" : kind;
 }
 
@@ -97,7 +99,7 @@ const std::vector<Engine>& all_engines() {
          .license_path = "LICENSE.md",
          .picture_path = "Documentation~/picture.png",
          .head_path = kUnityHead,
-         .head_format = {.map_files = true, .ambient_probe = true},
+         .head_format = {.map_files = true, .ambient_probe = true, .reflected_shares = true},
          .hlsl_path = kUnityHead,
          .table_path = kTable,
          .v_origin = VOrigin::bottom,
@@ -108,7 +110,7 @@ const std::vector<Engine>& all_engines() {
          .texts = {{"DermisSkin/Shaders/Skin.ush", shading::Language::hlsl}},
          .license_path = "DermisSkin/LICENSE",
          .head_path = "DermisSkin/Head/",
-         .head_format = {.map_files = true, .still_maps = true},
+         .head_format = {.map_files = true, .reflected_shares = true, .still_maps = true},
          .hlsl_path = "DermisSkin/Shaders/",
          .hlsl_extension = ".ush",
          .table_path = "DermisSkin/Resources/SkinTable.exr",

@@ -293,13 +293,12 @@ Result<json> head_lights_json(const HeadInput& input, Head& head) {
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         const Light& light = scene.lights[i];
         lights.push_back(head_light_json(light, shadow_maps[i] >= 0));
-        if (!input.format.still_maps) continue;
-        if (light.kind != LightKind::directional) {
-            head.warnings.push_back("light '" + light.name + "' does not light skin: it is not directional");
-        } else if (shadow_maps[i] >= 0) {
-            DERMIS_TRY_ASSIGN(lights.back()["shadow"],
-                              add_shadow_map(scene, light, fmt::format("shadow_{}.exr", i), head.files));
-        }
+        if (!input.format.still_maps || shadow_maps[i] < 0) continue;
+        auto shadow = add_shadow_map(scene, light, fmt::format("shadow_{}.exr", i), head.files);
+        if (shadow)
+            lights.back()["shadow"] = *shadow;
+        else
+            head.warnings.push_back("light '" + light.name + "' has no shadows: " + shadow.error().message);
     }
     return lights;
 }
@@ -400,7 +399,10 @@ Result<json> add_panorama(const Environment& environment, const HeadFormat& form
                  {"radiance_sh", harmonics},
                  {"yaw_rad", to_json(environment.yaw_rad)}};
     if (format.ambient_probe) made["ambient_probe"] = ambient_probe(light, environment);
-    if (format.still_maps) made["ambient_terms"] = ambient_terms(light, environment);
+    if (format.still_maps) {
+        made["ambient_terms"] = ambient_terms(light, environment);
+        DERMIS_TRY_ASSIGN(made["reflections"], add_reflections(environment, panorama, head.files));
+    }
     return made;
 }
 
@@ -442,6 +444,7 @@ Result<Head> make_head(const HeadInput& input) {
         DERMIS_TRY_ASSIGN(made["vertex_maps"], add_vertex_maps(scene, numbers, head.files));
     }
     DERMIS_TRY_ASSIGN(made["environment"], add_panorama(scene.environment, input.format, head));
+    if (input.format.reflected_shares) DERMIS_TRY(add_reflected_shares(head.files));
     if (input.normals.size > 0) {
         DERMIS_TRY_ASSIGN(made["baked_normals"], add_normals(input.normals, input.format.map_files, head));
     }

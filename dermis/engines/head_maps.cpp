@@ -2,12 +2,18 @@
 
 #include <algorithm>
 
+#include "dermis/base/angle.h"
+#include "dermis/base/parallel.h"
 #include "dermis/engines/web/parts.h"
 #include "dermis/image/dilate.h"
 #include "dermis/image/io.h"
 #include "dermis/mesh/uv_texels.h"
 #include "dermis/rays/uv_raster.h"
 #include "dermis/render/frame_values.h"
+#include "dermis/scene/brdf_table.h"
+#include "dermis/scene/cube_map.h"
+#include "dermis/scene/panorama.h"
+#include "dermis/scene/prefilter.h"
 
 namespace dermis::inline engines {
 namespace {
@@ -18,6 +24,10 @@ using web::to_json;
 constexpr int kVertexMapSize = 1024, kGutterTexels = 16, kShadowMapSize = 2048;
 constexpr const char* kBends = "vertex_bends.exr";
 constexpr const char* kOcclusion = "vertex_occlusion.png";
+constexpr const char* kReflections = "reflections.exr";
+// Rough lobes, which skin has, are wider than the 2.8 degrees of a texel; texels of a cube's side from which
+// they are filtered.
+constexpr int kReflectionLevels = 6, kReflectionHeight = 64, kReflectionPyramid = 128;
 
 // The four pairs between the corners of a triangle.
 std::array<Vec2, 4> between(const Mesh& mesh, const VertexNumbers& numbers, const UvTexel& texel) {
@@ -29,18 +39,43 @@ std::array<Vec2, 4> between(const Mesh& mesh, const VertexNumbers& numbers, cons
     return pairs;
 }
 
-// A camera without perspective at the light.
+// A camera at the light: without perspective where it is directional, else with the centre in its axis.
 struct LightView {
     Vec3 x, y, to_light, center_mm;
-    float radius_mm = 1;
+    float radius_mm = 1;     // of the map at the centre
+    float per_distance = 0;  // of the light from the centre, in 1/mm; directional: 0
 
-    // Column and row in texels, and how far towards the light, in mm.
+    // Column and row in texels, and what is linear between them: the magnification against the centre, or
+    // without perspective how far towards the light, in mm.
     [[nodiscard]] Vec3 place(Vec3 p_mm) const {
         const Vec3 from = p_mm - center_mm;
-        const float scale = kShadowMapSize / (2 * radius_mm);
-        return {(dot(from, x) + radius_mm) * scale, (dot(from, y) + radius_mm) * scale, dot(from, to_light)};
+        const float depth_mm = dot(from, to_light), larger = 1 / (1 - depth_mm * per_distance);
+        const float scale = kShadowMapSize / (2 * radius_mm) * larger;
+        return {dot(from, x) * scale + kShadowMapSize / 2.0f, dot(from, y) * scale + kShadowMapSize / 2.0f,
+                per_distance > 0 ? larger : depth_mm};
+    }
+    [[nodiscard]] float depth_mm(float linear) const {
+        return per_distance > 0 ? (1 - 1 / linear) / per_distance : linear;
     }
 };
+
+Result<LightView> light_view(const Scene& scene, const Light& light) {
+    LightView view = {.center_mm = scene.bounds_center_mm, .radius_mm = scene.bounds_radius_mm};
+    view.to_light = normalize(light.to_light_world);
+    if (light.kind != LightKind::directional) {
+        const Vec3 towards = light.position_mm - view.center_mm;
+        const float distance_mm = length(towards);
+        // The cone that holds the sphere of the scene is then less than 150 degrees wide.
+        if (distance_mm < 1.04f * view.radius_mm) return Error{"it is too near to have shadows"};
+        view.to_light = towards * (1 / distance_mm);
+        view.per_distance = 1 / distance_mm;
+        view.radius_mm /= std::sqrt(1 - std::pow(view.radius_mm * view.per_distance, 2.0f));
+    }
+    const Vec3 up = std::abs(view.to_light.y) < 0.9f ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
+    view.x = normalize(cross(up, view.to_light));
+    view.y = cross(view.to_light, view.x);
+    return view;
+}
 
 void draw_depths(const Mesh& mesh, const Submesh& submesh, const LightView& view, Image& depths) {
     for (uint32_t t = submesh.first_index / 3; t < (submesh.first_index + submesh.index_count) / 3; ++t) {
@@ -51,7 +86,7 @@ void draw_depths(const Mesh& mesh, const Submesh& submesh, const LightView& view
             corners[k] = {at[k].x, at[k].y};
         }
         visit_texels_of(corners, {depths.width, depths.height}, [&](int x, int y, double v, double w) {
-            const float depth = float((1 - v - w) * at[0].z + v * at[1].z + w * at[2].z);
+            const float depth = view.depth_mm(float((1 - v - w) * at[0].z + v * at[1].z + w * at[2].z));
             if (depth > depths.at(x, y, 0)) depths.set(x, y, 0, depth);
         });
     }
@@ -90,13 +125,11 @@ Result<json> add_vertex_maps(const Scene& scene, std::span<const VertexNumbers> 
 
 Result<json> add_shadow_map(const Scene& scene, const Light& light, const std::string& name,
                             std::vector<PackageFile>& files) {
-    const Vec3 l = normalize(light.to_light_world), up = std::abs(l.y) < 0.9f ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
-    const Vec3 x = normalize(cross(up, l));
-    const LightView view = {x, cross(l, x), l, scene.bounds_center_mm, scene.bounds_radius_mm};
+    DERMIS_TRY_ASSIGN(const LightView view, light_view(scene, light));
     Image depths(kShadowMapSize, kShadowMapSize, 1, PixelFormat::f16);
     for (int row = 0; row < depths.height; ++row)
         for (int column = 0; column < depths.width; ++column)
-            depths.set(column, row, 0, -2 * view.radius_mm);  // behind all surfaces
+            depths.set(column, row, 0, -2 * scene.bounds_radius_mm);  // behind all surfaces
     for (const SceneObject& object : scene.objects)
         for (const Submesh& submesh : object.mesh.submeshes) {
             const uint32_t m = submesh.material;
@@ -110,7 +143,49 @@ Result<json> add_shadow_map(const Scene& scene, const Light& light, const std::s
                 {"y", to_json(view.y)},
                 {"to_light", to_json(view.to_light)},
                 {"center_mm", to_json(view.center_mm)},
-                {"radius_mm", to_json(view.radius_mm)}};
+                {"radius_mm", to_json(view.radius_mm)},
+                {"per_distance", to_json(view.per_distance)}};
+}
+
+Result<void> add_reflected_shares(std::vector<PackageFile>& files) {
+    DERMIS_TRY_ASSIGN(const BrdfTable table, BrdfTable::load());
+    Image shares(kBrdfTableSize, kBrdfTableSize, 3, PixelFormat::f16);
+    const auto centre = [](int i) { return (float(i) + 0.5f) / kBrdfTableSize; };
+    for (int y = 0; y < shares.height; ++y)
+        for (int x = 0; x < shares.width; ++x) {
+            const Vec4 terms = table.at(kBrdfLobeGgx, centre(y), centre(x));
+            shares.set(x, y, 0, terms.x);
+            shares.set(x, y, 1, terms.y);
+        }
+    return add_picture(std::string(kReflectedShares), shares, files);
+}
+
+Result<json> add_reflections(const Environment& environment, const Image& panorama,
+                             std::vector<PackageFile>& files) {
+    const CubePyramid pyramid(panorama, kReflectionPyramid);
+    constexpr int kWidth = 2 * kReflectionHeight;
+    Image reflections(kWidth + 2, kReflectionHeight * kReflectionLevels, 3, PixelFormat::f16);
+    for (int level = 0; level < kReflectionLevels; ++level) {
+        const PrefilteredLobe lobe(pyramid, float(level) / (kReflectionLevels - 1), prefilter_samples(level),
+                                   4 * kPi / (kWidth * kReflectionHeight));
+        parallel_for(kReflectionHeight, 1, [&](size_t begin, size_t end) {
+            for (size_t row = begin; row < end; ++row)
+                for (int x = 0; x < kWidth; ++x) {
+                    const Vec3 d = panorama_direction((float(x) + 0.5f) / kWidth,
+                                                      (float(row) + 0.5f) / kReflectionHeight);
+                    const Vec3 c =
+                        lobe.reflected(to_environment(d, environment.yaw_rad)) * environment.intensity;
+                    const int y = level * kReflectionHeight + int(row);
+                    for (const int column : {x + 1, x == 0 ? kWidth + 1 : x == kWidth - 1 ? 0 : x + 1}) {
+                        reflections.set(column, y, 0, c.x);
+                        reflections.set(column, y, 1, c.y);
+                        reflections.set(column, y, 2, c.z);
+                    }
+                }
+        });
+    }
+    DERMIS_TRY(add_picture(kReflections, reflections, files));
+    return json{{"file", kReflections}, {"levels", kReflectionLevels}};
 }
 
 json ambient_terms(const EnvironmentLight& light, const Environment& environment) {

@@ -1,5 +1,6 @@
 #pragma once
-// What a head that stands still has as pictures, for HeadFormat::still_maps. Internal to dermis/engines.
+// Pictures of a head: reflections, and what a head that stands still has, for HeadFormat::still_maps.
+// Internal to dermis/engines.
 
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -25,15 +26,30 @@ using VertexNumbers = std::vector<std::vector<Vec2>>;
                                                      std::span<const VertexNumbers> numbers,
                                                      std::vector<PackageFile>& files);
 
-/// What a directional light sees, as a half-float EXR of this name: in red, how far towards the light from
-/// center_mm its first surface is, in mm. Rows begin at -radius_mm along y, columns at -radius_mm along x;
-/// both axes are in what is returned, with to_light.
+/// What a light sees, as a half-float EXR of this name: in red, how far towards the light from center_mm its
+/// first surface is, in mm. Rows begin at -radius_mm along y, columns at -radius_mm along x; both axes are in
+/// what is returned, with to_light. Of a point or spot light these are lengths at center_mm, at 1 /
+/// per_distance mm from the light; a place that is d mm nearer is enlarged by 1 / (1 - d per_distance).
+/// Error: such a light is near or in the sphere around the scene.
 [[nodiscard]] Result<nlohmann::json> add_shadow_map(const Scene& scene, const Light& light,
                                                     const std::string& name, std::vector<PackageFile>& files);
 
 /// Coefficients of irradiance over pi by direction n in the world, of 1, y, z, x, xy, yz, 3 z^2 - 1, xz,
 /// x^2 - y^2: nine colours, intensity included.
 [[nodiscard]] nlohmann::json ambient_terms(const EnvironmentLight& light, const Environment& environment);
+
+inline constexpr std::string_view kReflectedShares = "reflected_shares.exr";
+
+/// kReflectedShares: of light from all around, what a GGX lobe reflects, f0 times red plus green; n.v from
+/// left to right, roughness from top to bottom (scene/brdf_table.h).
+[[nodiscard]] Result<void> add_reflected_shares(std::vector<PackageFile>& files);
+
+/// reflections.exr: the environment of the world as GGX lobes of kReflectionLevels roughnesses, 0 to 1,
+/// reflect it, each a latitude-longitude picture (scene/panorama.h) below that of the less rough one;
+/// intensity included. A column of each end is repeated at the other one. Half a second. Returns its name and
+/// number of levels.
+[[nodiscard]] Result<nlohmann::json> add_reflections(const Environment& environment, const Image& panorama,
+                                                     std::vector<PackageFile>& files);
 
 /// The smallest and the largest corner of the mesh, in mm.
 [[nodiscard]] nlohmann::json box_json(const Mesh& mesh);

@@ -53,9 +53,10 @@ struct PackageGain {
 
 /// What an engine needs of a head beyond what every head holds.
 struct HeadFormat {
-    bool map_files = false;      ///< the maps of skin are files of their own, not in the GLB
-    bool linear_keys = false;    ///< clips without cubic splines
-    bool ambient_probe = false;  ///< scene.json has Unity's numbers for light from all around
+    bool map_files = false;         ///< the maps of skin are files of their own, not in the GLB
+    bool linear_keys = false;       ///< clips without cubic splines
+    bool ambient_probe = false;     ///< scene.json has Unity's numbers for light from all around
+    bool reflected_shares = false;  ///< what of light from all around a lobe reflects is a picture
     /// The head stands still, numbers of its vertices are maps, and directional lights have maps of their
     /// shadows: for an engine whose materials read neither vertices' numbers nor shadows.
     bool still_maps = false;

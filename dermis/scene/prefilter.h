@@ -8,6 +8,7 @@
 // leave no noise.
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "dermis/scene/cube_map.h"
@@ -17,6 +18,29 @@ namespace dermis::inline scene {
 /// All levels as EnvironmentLight::cube has them. Level m has roughness m / (mips - 1); level 0 is the
 /// mirror. The weights of a level sum to 1, so a constant environment stays exactly constant. Deterministic.
 [[nodiscard]] std::vector<std::byte> prefilter_ggx(const CubePyramid& environment, int base_size, int mips);
+
+/// One lobe: what it reflects of the environment, by the direction of the normal, the view and the
+/// reflection.
+class PrefilteredLobe {
+  public:
+    /// Roughness 0 takes one sample, with the footprint of a texel of `mirror_texel_sr` steradians.
+    PrefilteredLobe(const CubePyramid& environment, float roughness, uint32_t samples, float mirror_texel_sr);
+
+    [[nodiscard]] Vec3 reflected(Vec3 n) const;
+
+  private:
+    struct Sample {
+        Vec3 l;  ///< around +Z
+        float weight = 0, level = 0;
+    };
+
+    const CubePyramid& environment_;
+    std::vector<Sample> samples_;
+};
+
+/// Of the lobe of a level, 0 the mirror: rough lobes are wide, and more samples keep the footprint of each
+/// small.
+[[nodiscard]] uint32_t prefilter_samples(int level);
 
 /// Bytes of such a cube.
 [[nodiscard]] size_t prefiltered_bytes(int base_size, int mips);

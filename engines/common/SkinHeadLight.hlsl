@@ -86,6 +86,8 @@ void SkinSetMaterial(inout SkinHeadSurface s, float3 albedo, float3 surface, flo
     s.past_far_wall_mm = skin_past_far_wall_mm(thickness_mm);
 }
 
+float SkinHeadNDotV(SkinHeadSurface s) { return clamp(dot(s.n, s.v), 1e-3, 1.0); }
+
 float3 SkinFalloff(SKIN_TABLE_IN float n_dot_l, float curvature_per_mm) {
     return SkinTable(SKIN_TABLE skin_diffuse_coordinate(n_dot_l, curvature_per_mm, kSkinMaxCurvaturePerMm));
 }
@@ -113,7 +115,7 @@ float3 SkinHeadLight(SKIN_TABLE_IN SkinHeadSurface s, float3 to_light, float3 co
     float n_dot_l = dot(s.n, to_light);
     if (n_dot_l > 0.0) {
         float3 h = normalize(to_light + s.v);
-        float lobe = skin_ggx(saturate(dot(s.n, h)), n_dot_l, max(dot(s.n, s.v), 1e-3), s.roughness * s.roughness);
+        float lobe = skin_ggx(saturate(dot(s.n, h)), n_dot_l, SkinHeadNDotV(s), s.roughness * s.roughness);
         specular = (float3)(kSkinPi * lobe * skin_fresnel_schlick(s.f0, saturate(dot(h, s.v))) * visible);
     }
     return (s.albedo * diffuse + specular) * color;
@@ -134,6 +136,13 @@ float3 SkinHeadAmbient(SkinHeadSurface s, float3 terms[9]) {
     float3 of_red = SkinProbe(terms, SkinMeshToWorld(s.n_red), s.band_1, s.band_2);
     float3 of_green = SkinProbe(terms, SkinMeshToWorld(s.n_green), s.band_1, s.band_2);
     return s.albedo * float3(of_red.r, of_green.gb) * s.scattered_occlusion * s.gain;
+}
+
+// Reflected light of the environment: the split sum (Karis 2013). radiance: what a lobe of s.roughness reflects of it towards the eye; shares: of
+// reflected_shares.exr at SkinReflectedShareAt(), the first row of the picture at v 0.
+float2 SkinReflectedShareAt(SkinHeadSurface s) { return float2(SkinHeadNDotV(s), s.roughness); }
+float3 SkinHeadReflection(SkinHeadSurface s, float2 shares, float3 radiance) {
+    return radiance * ((s.f0 * shares.x + shares.y) * skin_specular_occlusion(SkinHeadNDotV(s), s.occlusion, s.roughness));
 }
 
 #endif

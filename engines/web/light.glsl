@@ -70,12 +70,11 @@ vec3 environment_convolved(vec3 normal_world, vec3 band_0, vec3 band_1, vec3 ban
     return max(band_0 * l0 + band_1 * l1 + band_2 * l2, vec3(0.0)) * environment_intensity;
 }
 
-// Prefiltered for GGX; the occlusion of a reflection after Lagarde, de Rousiers 2014.
+// Prefiltered for GGX.
 vec3 environment_specular(vec3 n, vec3 to_eye, float roughness, float f0, float occlusion) {
     float n_dot_v = clamp(dot(n, to_eye), 1e-3, 1.0);
     float level = roughness * (environment_levels.x - 1.0) - environment_levels.y;
     vec3 radiance = textureLod(environment_cube, to_environment(reflect(-to_eye, n)), max(level, 0.0)).rgb;
     vec2 brdf = textureLod(environment_brdf, vec2(n_dot_v, roughness), 0.0).rg;
-    float open = clamp(pow(n_dot_v + occlusion, exp2(-16.0 * roughness - 1.0)) - 1.0 + occlusion, 0.0, 1.0);
-    return radiance * environment_intensity * (f0 * brdf.x + brdf.y) * open;
+    return radiance * environment_intensity * (f0 * brdf.x + brdf.y) * specular_occlusion(n_dot_v, occlusion, roughness);
 }

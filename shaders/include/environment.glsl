@@ -3,6 +3,7 @@
 #define DERMIS_ENVIRONMENT_GLSL
 
 #include "shaders/include/frame.glsl"
+#include "shaders/include/skin/specular.glsl"
 
 uniform textureCube environment_cube;
 // Of each lobe F0 scale and bias of the split sum, and their means: n.v from left to right, roughness from top to bottom
@@ -26,11 +27,6 @@ vec3 environment_convolved(vec3 n_world, vec3 band_0, vec3 band_1, vec3 band_2) 
 
 vec3 environment_irradiance(vec3 n_world) {
     return environment_convolved(n_world, vec3(kPi), vec3(2.0 * kPi / 3.0), vec3(kPi / 4.0));
-}
-
-// How much of a reflection cone the occlusion leaves: Lagarde, de Rousiers 2014.
-float specular_occlusion(float n_dot_v, float occlusion, float roughness) {
-    return clamp(pow(n_dot_v + occlusion, exp2(-16.0 * roughness - 1.0)) - 1.0 + occlusion, 0.0, 1.0);
 }
 
 vec4 brdf_terms(int lobe, float roughness, float cosine) {

@@ -31,6 +31,7 @@ const std::map<std::string, Domain>& domains() {
         {"n_dot_v", {0.001, 1}},
         {"h_dot_v", {0, 1}},
         {"cos_theta", {0, 1}},
+        {"occlusion", {0, 1}},
         {"f0", {0, 1}},
         {"alpha", {0.0009, 1}},
         {"skin_blinn_phong.alpha", {0.03, 1}},

@@ -22,6 +22,7 @@ namespace Dermis
         const int kShadowMapSide = 4096;
 
         [SerializeField] TextAsset scene;
+        [SerializeField] Material sky;
         [SerializeField] List<Follower> followers = new List<Follower>();
 
         // A mesh whose skin's curvature follows the weights of its targets.
@@ -48,7 +49,7 @@ namespace Dermis
         }
         [Serializable] sealed class View { public float[] eye_mm, target_mm, up; public float vertical_fov_rad; }
         [Serializable] sealed class Bounds { public float[] center_mm; public float radius_mm; }
-        [Serializable] sealed class Sky { public float[] ambient_probe; }
+        [Serializable] sealed class Sky { public string file; public float[] ambient_probe; public float intensity, yaw_rad; }
         [Serializable] sealed class Depth { public string file; public float max_mm; }
         [Serializable] sealed class Item { public string file, name; public Surface[] materials; public Changes curvature_of_targets; }
         [Serializable] sealed class Changes { public string file; public string[] targets; public float rows, most_per_mm; }
@@ -79,6 +80,7 @@ namespace Dermis
             if (scene == null) return;
             Settings settings = JsonUtility.FromJson<Settings>(scene.text);
             SetAmbientProbe(settings.environment);
+            SetSky();
             WarnOfProject(settings);
         }
 
@@ -122,6 +124,16 @@ namespace Dermis
             RenderSettings.ambientProbe = probe;
         }
 
+        // What the default reflection probe sees; the camera still shows the plain background.
+        void SetSky()
+        {
+            if (sky == null) return;
+            RenderSettings.skybox = sky;
+            RenderSettings.defaultReflectionMode = DefaultReflectionMode.Skybox;
+            RenderSettings.reflectionIntensity = 1;
+            DynamicGI.UpdateEnvironment();
+        }
+
         // What a package may not change in a project, and what it costs.
         void WarnOfProject(Settings settings)
         {
@@ -156,6 +168,7 @@ namespace Dermis
             followers.Clear();
             while (transform.childCount > 0) DestroyImmediate(transform.GetChild(0).gameObject);
             Settings settings = JsonUtility.FromJson<Settings>(scene.text);
+            sky = SkyMaterial(settings.environment);
             foreach (Item item in settings.objects) AddObject(item, settings);
             foreach (Lamp lamp in settings.lights) AddLight(lamp);
             AddCamera(settings);
@@ -217,6 +230,7 @@ namespace Dermis
             Bind(skin, "_BaseMap", one.maps?.albedo);
             Bind(skin, "_NormalMap", one.maps?.normal);
             Bind(skin, "_SurfaceMap", one.maps?.surface);
+            Bind(skin, "_ReflectedShares", "reflected_shares.exr");
             skin.SetColor("_BaseColor", FromLinear(Numbers(one.albedo_linear)));
             skin.SetFloat("_BumpScale", one.normal_scale);
             skin.SetFloat("_ObjectSpaceNormals", one.object_space_normals ? 1 : 0);
@@ -243,6 +257,18 @@ namespace Dermis
                 skin.SetFloat("_MostChangePerMm", item.curvature_of_targets.most_per_mm);
             }
             return skin;
+        }
+
+        // Skybox/Panoramic has +x in the middle of a panorama; its tint is multiplied by unity_ColorSpaceDouble.
+        Material SkyMaterial(Sky one)
+        {
+            if (string.IsNullOrEmpty(one?.file)) return null;
+            const float kColorSpaceDouble = 4.59479380f;
+            var made = new Material(Shader.Find("Skybox/Panoramic")) { name = "Sky" };
+            Bind(made, "_MainTex", one.file);
+            made.SetFloat("_Rotation", Mathf.Repeat(270 + Mathf.Rad2Deg * one.yaw_rad, 360));
+            made.SetColor("_Tint", FromLinear(Vector3.one * (one.intensity / kColorSpaceDouble)));
+            return made;
         }
 
         void AddLight(Lamp lamp)

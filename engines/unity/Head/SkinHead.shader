@@ -29,6 +29,7 @@ Shader "Dermis/Skin Head"
         _TargetCount("Targets that change the curvature now", Float) = 0
         _RowsOfTarget("Rows of a target", Float) = 1
         _MostChangePerMm("Largest change of the mean curvature in 1/mm", Float) = 0
+        [NoScaleOffset] _ReflectedShares("What a lobe reflects of light from all around", 2D) = "black" {}
         [NoScaleOffset] _SkinTable("Skin table", 2D) = "black" {}
     }
     SubShader
@@ -47,6 +48,9 @@ Shader "Dermis/Skin Head"
             #pragma multi_compile _ _FORWARD_PLUS _CLUSTER_LIGHT_LOOP
             #pragma multi_compile_fragment _ _ADDITIONAL_LIGHT_SHADOWS
             #pragma multi_compile_fragment _ _SHADOWS_SOFT
+            #pragma multi_compile_fragment _ _REFLECTION_PROBE_BLENDING
+            #pragma multi_compile_fragment _ _REFLECTION_PROBE_BOX_PROJECTION
+            #pragma multi_compile_fragment _ _REFLECTION_PROBE_ATLAS
             #pragma multi_compile_fog
             #pragma multi_compile_instancing
             #include "SkinHeadForward.hlsl"

@@ -1,5 +1,5 @@
 // The lit pass of a head: baked normals, curvature and occlusion of the vertices, scattered shadow edges of the main light, light
-// through thin parts, scattered light of the ambient probe.
+// through thin parts, scattered light of the ambient probe, reflections of the reflection probes.
 //
 // glTFast mirrors x and turns every pair of texture coordinates upside down: y is 1 - y. "The mesh's space" below is that of the file,
 // in which all maps and tensors are baked; of a mesh that moves it turns with the frames of the vertices.
@@ -27,6 +27,7 @@ TEXTURE2D(_ThicknessMap);
 SAMPLER(sampler_ThicknessMap);
 TEXTURE2D(_CurvatureOfTargets);
 TEXTURE2D(_TargetWeights);
+TEXTURE2D(_ReflectedShares);
 TEXTURE2D(_SkinTable);
 SAMPLER(sampler_SkinTable);
 
@@ -214,6 +215,15 @@ float3 SkinHeadProbe(SkinHeadSurface s) {
     return SkinHeadAmbient(s, terms);
 }
 
+// Of the reflection probes, or of the sky where there are none. Unity's pictures begin at the bottom.
+float3 SkinHeadReflections(SkinHeadSurface s, SkinHeadVaryings input) {
+    float2 at = SkinReflectedShareAt(s);
+    float2 shares = SAMPLE_TEXTURE2D_LOD(_ReflectedShares, sampler_SkinTable, float2(at.x, 1.0 - at.y), 0).rg;
+    float3 radiance = GlossyEnvironmentReflection(reflect(-s.v, s.n), input.positionAndFog.xyz, s.roughness, 1.0,
+                                                  GetNormalizedScreenSpaceUV(input.positionCS));
+    return SkinHeadReflection(s, shares, radiance);
+}
+
 float4 SkinHeadFragment(SkinHeadVaryings input) : SV_Target {
     UNITY_SETUP_STEREO_EYE_INDEX_POST_VERTEX(input);
     // Not assigned, or imported with a size limit: words instead of wrong light.
@@ -222,7 +232,7 @@ float4 SkinHeadFragment(SkinHeadVaryings input) : SV_Target {
     skin_axis_y = input.axisY;
     skin_axis_z = input.axisZ;
     SkinHeadSurface s = SkinHeadSurfaceOf(input);
-    float3 radiance = SkinHeadLights(s, input) + SkinHeadProbe(s);
+    float3 radiance = SkinHeadLights(s, input) + SkinHeadProbe(s) + SkinHeadReflections(s, input);
     return float4(MixFog(radiance, input.positionAndFog.w), 1.0);
 }
 

@@ -50,4 +50,10 @@ float kelemen_szirmay_kalos(float distribution, float n_dot_l, float h_dot_v) {
     return distribution * n_dot_l / max(4.0 * h_dot_v * h_dot_v, 1e-3);
 }
 
+// How much of the environment's reflection an occlusion leaves, 0 to 1: Lagarde, de Rousiers 2014, "Moving Frostbite to
+// Physically Based Rendering". roughness is the perceptual one.
+float specular_occlusion(float n_dot_v, float occlusion, float roughness) {
+    return clamp(pow(n_dot_v + occlusion, exp2(-16.0 * roughness - 1.0)) - 1.0 + occlusion, 0.0, 1.0);
+}
+
 #endif

@@ -21,7 +21,8 @@ struct Settings {
     std::string clip;  ///< empty: the nodes as the file opens
     double time_s = 0;
     /// "normals": baked normals are not bound; "curvature": in 1/m; "srgb": directions imported as colours;
-    /// "frames": the bakes do not turn with the surface; "shadow": the light is not that of its map.
+    /// "frames": the bakes do not turn with the surface; "shadow": the light is not that of its map;
+    /// "reflections": the environment has none.
     std::string mistake;
 };
 

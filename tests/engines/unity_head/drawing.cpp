@@ -9,6 +9,7 @@
 #include "dermis/base/angle.h"
 #include "dermis/base/file.h"
 #include "engines/unity_head/package.h"
+#include "engines/unity_head/sky.h"
 #include "support/temporary_directory.h"
 #include "test_paths.h"
 
@@ -113,6 +114,10 @@ Result<void> spoil(const std::string& mistake, Material& material, std::vector<P
             material.pictures.erase(name);
         return {};
     }
+    if (mistake == "reflections") {
+        material.pictures.erase("_ReflectedShares");
+        return {};
+    }
     if (mistake == "frames") {
         material.values["_Moves"] = {0};
         return {};
@@ -135,7 +140,9 @@ Result<void> add_textures(gpu::Device& device, const Material& material, const s
         gpu::TextureData data = standard_picture(standard);
         if (const auto found = material.pictures.find(name); found != material.pictures.end()) {
             DERMIS_TRY_ASSIGN(data, import_picture(found->second));
-            if (mistake == "srgb" && name.starts_with("_Normals")) data.srgb = true;
+            // Of pictures of 8 bits: Unity has no sRGB floats.
+            if (mistake == "srgb" && name.starts_with("_Normals"))
+                data.srgb = data.format == ImageFormat::rgba8;
         }
         block[name + "_TexelSize"] =
             Vec4{1.0f / float(data.width), 1.0f / float(data.height), float(data.width), float(data.height)};
@@ -249,6 +256,10 @@ Result<Image> draw_head(const Settings& settings) {
     frame.blocks["StubLight"] = {
         {"stub_light_direction", row(to_light, 0)},
         {"stub_light_color", row(Vec3{float(color[0]), float(color[1]), float(color[2])} * over_pi, 0)}};
+
+    DERMIS_TRY_ASSIGN(const gpu::TextureData sky, sky_cube(settings.package, scene));
+    DERMIS_TRY_ASSIGN(gpu::Texture sky_texture, gpu::Texture::upload(device, sky));
+    frame.textures["unity_SpecCube0"] = &uploads.textures.emplace_back(std::move(sky_texture));
 
     const auto shaders = [&](std::string_view name) {
         return compiled(settings.package, scratch.path, std::string(name));

@@ -48,6 +48,7 @@ json evaluated(std::string expression, const json& settings, const json& item, c
     if (std::regex_match(expression, found, std::regex("(.*) \\? 1 : 0")))
         return json(evaluated(found[1], settings, item, surface) == json(true) ? 1.0 : 0.0);
     if (std::regex_match(expression, std::regex("[0-9.]+"))) return json(std::stod(expression));
+    if (std::regex_match(expression, found, std::regex("\"(.*)\""))) return json(found[1].str());
     expression = std::regex_replace(expression, std::regex("\\?"), "");
     const json* at = expression.starts_with("one.")        ? &surface
                      : expression.starts_with("item.")     ? &item

@@ -124,6 +124,7 @@ Result<gpu::Draw> material_draw(gpu::Device& device, const json& editor, const G
     if (settings.mistake == "shadow")
         for (auto& [name, value] : draw.values)
             if (name.ends_with("ToLightValue")) value = Vec4{};
+    if (settings.mistake == "reflections") draw.values["ReflectionLevelsValue"] = 0.0f;
     draw.values["ScatteringValue"] = settings.lambert ? 0.0f : 1.0f;
     draw.values["CurvedGainValue"] = settings.gain ? 1.0f : 0.0f;
     return draw;
@@ -163,7 +164,7 @@ Result<void> add_mesh(gpu::Device& device, const json& editor, const json& mesh,
 }  // namespace
 
 Result<Image> draw_head(const Settings& settings) {
-    constexpr std::string_view kMistakes[] = {"", "normals", "curvature", "srgb", "shadow"};
+    constexpr std::string_view kMistakes[] = {"", "normals", "curvature", "srgb", "shadow", "reflections"};
     if (std::ranges::count(kMistakes, settings.mistake) == 0)
         return Error{"no mistake is named '" + settings.mistake + "'"};
     const TemporaryDirectory scratch;

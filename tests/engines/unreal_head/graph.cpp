@@ -82,20 +82,21 @@ class Translator {
     }
 
     // A direction or a place, which is the same in the mesh's space: the mesh is at the origin, not turned.
-    Result<std::string> in_local_space(size_t at, const char* source_space, const char* space) const {
+    Result<std::string> in_local_space(size_t at, const char* source_space, const char* space) {
         const json& node = editor_["nodes"][at];
         if (node["transform_source_type"] != source_space || node["transform_type"] != space)
             return Error{"only from the world to the mesh's space is modelled"};
         DERMIS_TRY_ASSIGN(const size_t source, linked(at, ""));
         const json& from = editor_["nodes"][source];
         if (from["kind"] == "MaterialExpressionWorldPosition") return std::string("pixel.position");
+        if (from["kind"] == "MaterialExpressionVectorParameter") return parameter_of(from) + ".rgb";
         if (from["kind"] != "MaterialExpressionConstant3Vector")
             return Error{"no transform of " + std::string(from["kind"]) + " is modelled"};
         const json& c = from["constant"];
         return "float3(" + c[0].dump() + ", " + c[1].dump() + ", " + c[2].dump() + ")";
     }
 
-    Result<std::string> geometry_of(size_t at) const {
+    Result<std::string> geometry_of(size_t at) {
         const json& node = editor_["nodes"][at];
         const std::string kind = node["kind"];
         if (kind == "MaterialExpressionVertexNormalWS") return std::string("normalize(pixel.normal)");
@@ -126,10 +127,17 @@ class Translator {
                          parameter + "Map, trilinear_clamp"};
         }
         const bool is_scalar = kind == "MaterialExpressionScalarParameter";
-        graph_.values[parameter] = node["default_value"];
-        block_ += (is_scalar ? "    float " : "    float4 ") + parameter + "Value;\n";
         return Input{(is_scalar ? "float " : "float3 ") + name,
-                     parameter + (is_scalar ? "Value" : "Value.rgb")};
+                     parameter_of(node) + (is_scalar ? "" : ".rgb")};
+    }
+
+    // A number or a colour, in the block Material.
+    std::string parameter_of(const json& node) {
+        const std::string name = node["parameter_name"];
+        const bool is_scalar = node["kind"] == "MaterialExpressionScalarParameter";
+        graph_.values[name] = node["default_value"];
+        block_ += (is_scalar ? "    float " : "    float4 ") + name + "Value;\n";
+        return name + "Value";
     }
 
     const json& editor_;

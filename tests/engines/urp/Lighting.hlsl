@@ -25,5 +25,13 @@ Light GetMainLight(float4 shadowCoord, float3 positionWS, half4 shadowMask) {
 }
 Light GetAdditionalLight(uint i, float3 positionWS, half4 shadowMask) { return GetMainLight(float4(0, 0, 0, 0), positionWS, shadowMask); }
 uint GetAdditionalLightsCount() { return 3u; }
+// The sky's reflections; a level has a roughness, evenly from 0 to 1.
+TextureCube unity_SpecCube0;
+half3 GlossyEnvironmentReflection(half3 reflectVector, float3 positionWS, half perceptualRoughness, half occlusion,
+                                  float2 normalizedScreenSpaceUV) {
+    uint width, height, levels;
+    unity_SpecCube0.GetDimensions(0, width, height, levels);
+    return unity_SpecCube0.SampleLevel(trilinear_clamp, reflectVector, perceptualRoughness * float(levels - 1u)).rgb * occlusion;
+}
 half3 SampleSH(half3 n) { return float3(unity_SHAr.w, unity_SHAg.w, unity_SHAb.w); }
 #endif

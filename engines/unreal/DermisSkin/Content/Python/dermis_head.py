@@ -55,10 +55,18 @@ SkinSetMaterial(s, Albedo * AlbedoMap.Sample(AlbedoMapSampler, UV).rgb, SurfaceM
     ThicknessMap.Sample(ThicknessMapSampler, Atlas).g * ThicknessMaxMm);
 float3 Terms[9] = { Ambient0, Ambient1, Ambient2, Ambient3, Ambient4, Ambient5, Ambient6, Ambient7, Ambient8 };
 float3 Radiance = SkinHeadAmbient(s, Terms);
+if (ReflectionLevels > 0.5) Radiance += SkinHeadReflected(s, ReflectedShares, ReflectedSharesSampler, Reflections, ReflectionsSampler,
+    ReflectionLevels);
 """
 # For each light; {0} is its number.
-NODE_LIGHT = """SkinShadowLight Shadow{0}Light = {{ Shadow{0}X, Shadow{0}Y, Shadow{0}ToLight, Shadow{0}CenterMm, Shadow{0}RadiusMm }};
-Radiance += SkinHeadLit(SkinTable, SkinTableSampler, s, p, Light{0}Direction, Light{0}Color, Shadow{0}, Shadow{0}Light);
+NODE_SHADOW = """SkinShadowLight Shadow{0}Light = {{ Shadow{0}X, Shadow{0}Y, Shadow{0}ToLight, Shadow{0}CenterMm, Shadow{0}RadiusMm,
+    Shadow{0}PerDistance }};
+"""
+NODE_LIGHT = NODE_SHADOW + """Radiance += SkinHeadLit(SkinTable, SkinTableSampler, s, p, Light{0}Direction, Light{0}Color, Shadow{0},
+    Shadow{0}Light);
+"""
+NODE_NEAR_LIGHT = NODE_SHADOW + """Radiance += SkinHeadLitNear(SkinTable, SkinTableSampler, s, p, Light{0}Position, Light{0}Direction,
+    Light{0}CosInner, Light{0}CosOuter, Light{0}Color, Shadow{0}, Shadow{0}Light);
 """
 
 
@@ -101,16 +109,18 @@ def skin_maps(scene, surface):
         "ThicknessMap": (scene.get("thickness", {}).get("file"), ATLAS),
         "VertexBends": (scene["vertex_maps"]["bends"], FLOATS),
         "VertexOcclusion": (scene["vertex_maps"]["occlusion"], FULL),
+        "ReflectedShares": ("reflected_shares.exr", FLOATS),
+        "Reflections": (reflections(scene).get("file"), FLOATS),
     }
-    for i, lamp in enumerate(skin_lights(scene)):
+    for i, lamp in enumerate(scene["lights"]):
         files["Shadow%d" % i] = (lamp.get("shadow", {}).get("file"), FLOATS)
     made = {name: (texture(file, settings), not file or settings is COLOUR) for name, (file, settings) in files.items()}
     made["SkinTable"] = (unreal.EditorAssetLibrary.load_asset(dermis_skin.TABLE), False)
     return made
 
 
-def skin_lights(scene):
-    return [lamp for lamp in scene["lights"] if lamp["kind"] == "directional"]
+def reflections(scene):
+    return (scene.get("environment") or {}).get("reflections", {})
 
 
 def skin_numbers(scene, surface):
@@ -126,10 +136,19 @@ def skin_numbers(scene, surface):
         "HasNormalMap": 1.0 if maps.get("normal") else 0.0,
         "ObjectSpaceNormals": 1.0 if surface["object_space_normals"] else 0.0,
         "HasBakedNormals": 1.0 if scene.get("baked_normals") else 0.0,
+        "ReflectionLevels": float(reflections(scene).get("levels", 0)),
         "ThicknessMaxMm": scene["thickness"]["max_mm"] if scene.get("thickness") else 1000.0,
     }
-    for i, lamp in enumerate(skin_lights(scene)):
-        numbers["Shadow%dRadiusMm" % i] = lamp.get("shadow", {}).get("radius_mm", 1.0)
+    for i, lamp in enumerate(scene["lights"]):
+        shadow = lamp.get("shadow", {})
+        numbers["Shadow%dRadiusMm" % i] = shadow.get("radius_mm", 1.0)
+        numbers["Shadow%dPerDistance" % i] = shadow.get("per_distance", 0.0)
+        if lamp["kind"] == "directional":
+            continue
+        # A point light shines in all directions.
+        is_spot = lamp["kind"] == "spot"
+        numbers["Light%dCosInner" % i] = math.cos(lamp["inner_angle_rad"]) if is_spot else -2.0
+        numbers["Light%dCosOuter" % i] = math.cos(lamp["outer_angle_rad"]) if is_spot else -3.0
     return numbers
 
 
@@ -139,7 +158,7 @@ def skin_colours(scene, surface):
     colours = {"Albedo": colour(surface["albedo_linear"])}
     for i in range(9):
         colours["Ambient%d" % i] = colour(sky["ambient_terms"][i] if sky else [0.0, 0.0, 0.0])
-    for i, lamp in enumerate(skin_lights(scene)):
+    for i, lamp in enumerate(scene["lights"]):
         to_light = direction(lamp["to_light"])
         colours["Light%dDirection" % i] = colour([to_light.x, to_light.y, to_light.z])
         colours["Light%dColor" % i] = colour(lamp["color_linear"], lamp["intensity"] / math.pi)
@@ -153,15 +172,20 @@ def add(material, kind, row, **properties):
     return dermis_skin.add(material, kind, -900 - 300 * (row % 4), 100 * row, **properties)
 
 
-def skin_geometry(material):
-    """What the node gets of the pixel."""
-    position = add(material, unreal.MaterialExpressionWorldPosition, 1)
-    local = add(material, unreal.MaterialExpressionTransformPosition, 0,
+def in_object(material, position, row):
+    """A place of the world in the space of the object."""
+    local = add(material, unreal.MaterialExpressionTransformPosition, row,
                 transform_source_type=unreal.MaterialPositionTransformSource.TRANSFORMPOSSOURCE_WORLD,
                 transform_type=unreal.MaterialPositionTransformSource.TRANSFORMPOSSOURCE_LOCAL)
     unreal.MaterialEditingLibrary.connect_material_expressions(position, "", local, "")
+    return local
+
+
+def skin_geometry(material):
+    """What the node gets of the pixel."""
+    position = add(material, unreal.MaterialExpressionWorldPosition, 1)
     inputs = {
-        "LocalPosition": local,
+        "LocalPosition": in_object(material, position, 0),
         "Normal": add(material, unreal.MaterialExpressionVertexNormalWS, 4),
         "Tangent": add(material, unreal.MaterialExpressionVertexTangentWS, 8),
         "CameraVector": add(material, unreal.MaterialExpressionCameraVectorWS, 12),
@@ -178,11 +202,25 @@ def skin_geometry(material):
     return inputs
 
 
+def light_positions(material, scene):
+    """Of point and spot lights, in the space of the object."""
+    inputs = {}
+    for i, lamp in enumerate(scene["lights"]):
+        if lamp["kind"] == "directional":
+            continue
+        name, at = "Light%dPosition" % i, centimetres(lamp["position_mm"])
+        position = add(material, unreal.MaterialExpressionVectorParameter, 41 + 4 * i, parameter_name=name,
+                       default_value=colour([at.x, at.y, at.z]))
+        inputs[name] = in_object(material, position, 40 + 4 * i)
+    return inputs
+
+
 def make_skin(name, scene, surface):
     if unreal.EditorAssetLibrary.does_asset_exist(FOLDER + "/" + name):
         unreal.EditorAssetLibrary.delete_asset(FOLDER + "/" + name)
     material = dermis_skin.create_material(FOLDER, name)
     inputs = skin_geometry(material)
+    inputs.update(light_positions(material, scene))
     for key, (asset, is_colour) in skin_maps(scene, surface).items():
         inputs[key] = add(material, unreal.MaterialExpressionTextureObjectParameter, len(inputs) + 30, parameter_name=key, texture=asset,
                           sampler_type=unreal.MaterialSamplerType.SAMPLERTYPE_COLOR if is_colour
@@ -191,7 +229,8 @@ def make_skin(name, scene, surface):
         inputs[key] = add(material, unreal.MaterialExpressionScalarParameter, len(inputs) + 30, parameter_name=key, default_value=value)
     for key, value in skin_colours(scene, surface).items():
         inputs[key] = add(material, unreal.MaterialExpressionVectorParameter, len(inputs) + 30, parameter_name=key, default_value=value)
-    code = NODE + "".join(NODE_LIGHT.format(i) for i in range(len(skin_lights(scene)))) + "return Radiance;"
+    lights = [(NODE_LIGHT if lamp["kind"] == "directional" else NODE_NEAR_LIGHT).format(i) for i, lamp in enumerate(scene["lights"])]
+    code = NODE + "".join(lights) + "return Radiance;"
     node = dermis_skin.add(material, unreal.MaterialExpressionCustom, -400, 200, description="Skin of the head",
                            output_type=unreal.CustomMaterialOutputType.CMOT_FLOAT3,
                            include_file_paths=["/Plugin/DermisSkin/SkinHead.ush"],
@@ -252,8 +291,15 @@ def add_light(lamp, actors):
     """Unreal's own light, for what is not skin."""
     x, y, z = (-number for number in lamp["to_light"])
     rotation = unreal.MathLibrary.make_rot_from_x(direction([x, y, z]))
-    actor = named(actors.spawn_actor_from_class(unreal.DirectionalLight, unreal.Vector(0.0, 0.0, 0.0), rotation), lamp["name"])
+    kind = {"directional": unreal.DirectionalLight, "point": unreal.PointLight, "spot": unreal.SpotLight}[lamp["kind"]]
+    actor = named(actors.spawn_actor_from_class(kind, centimetres(lamp.get("position_mm", [0.0, 0.0, 0.0])), rotation), lamp["name"])
     light = actor.get_editor_property("light_component")
+    if lamp["kind"] != "directional":  # candelas are the lux at a metre
+        light.set_editor_property("intensity_units", unreal.LightUnits.CANDELAS)
+        light.set_editor_property("attenuation_radius", 10000.0)
+    if lamp["kind"] == "spot":
+        light.set_editor_property("inner_cone_angle", math.degrees(lamp["inner_angle_rad"]))
+        light.set_editor_property("outer_cone_angle", math.degrees(lamp["outer_angle_rad"]))
     light.set_editor_property("intensity", lamp["intensity"])
     light.set_light_color(colour(lamp["color_linear"]))
     light.set_editor_property("cast_shadows", lamp["casts_shadow"])
@@ -292,7 +338,7 @@ def build():
             actors.destroy_actor(actor)
     for index, item in enumerate(scene["objects"]):
         place(item, index, scene, actors)
-    for lamp in skin_lights(scene):
+    for lamp in scene["lights"]:
         add_light(lamp, actors)
     add_camera(scene["camera"], scene["exposure"], actors)
     unreal.log("dermis_head: '%s' is in the level" % scene["name"])
