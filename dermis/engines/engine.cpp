@@ -84,7 +84,9 @@ Result<void> add_import_files(const PackageInput& input, std::vector<PackageFile
             input.templates, "engines/godot_import/" + import_kind(path, kGodotHead) + ".import",
             &PackageTemplate::path);
         if (found == input.templates.end()) continue;
-        DERMIS_TRY_ASSIGN(const std::string text, filled(*found, {{"path", path}}));
+        const bool is_full_size = path.ends_with(kReflectedShares) || path.ends_with(kReflections);
+        DERMIS_TRY_ASSIGN(const std::string text,
+                          filled(*found, {{"path", path}, {"has_levels", is_full_size ? "false" : "true"}}));
         files.push_back({path + ".import", to_bytes(text)});
     }
     return {};
@@ -110,7 +112,8 @@ const std::vector<Engine>& all_engines() {
          .texts = {{"DermisSkin/Shaders/Skin.ush", shading::Language::hlsl}},
          .license_path = "DermisSkin/LICENSE",
          .head_path = "DermisSkin/Head/",
-         .head_format = {.map_files = true, .reflected_shares = true, .still_maps = true},
+         .head_format =
+             {.map_files = true, .reflected_shares = true, .reflections = true, .still_maps = true},
          .hlsl_path = "DermisSkin/Shaders/",
          .hlsl_extension = ".ush",
          .table_path = "DermisSkin/Resources/SkinTable.exr",
@@ -121,7 +124,8 @@ const std::vector<Engine>& all_engines() {
          .license_path = "addons/dermis_skin/LICENSE",
          .head_path = kGodotHead,
          // Its importer interpolates rotations of cubic splines as linear keys.
-         .head_format = {.map_files = true, .linear_keys = true},
+         .head_format =
+             {.map_files = true, .linear_keys = true, .reflected_shares = true, .reflections = true},
          .table_path = "addons/dermis_skin/skin_table.exr",
          .v_origin = VOrigin::top,
          .add_files = add_import_files},

@@ -399,8 +399,8 @@ Result<json> add_panorama(const Environment& environment, const HeadFormat& form
                  {"radiance_sh", harmonics},
                  {"yaw_rad", to_json(environment.yaw_rad)}};
     if (format.ambient_probe) made["ambient_probe"] = ambient_probe(light, environment);
-    if (format.still_maps) {
-        made["ambient_terms"] = ambient_terms(light, environment);
+    if (format.still_maps) made["ambient_terms"] = ambient_terms(light, environment);
+    if (format.reflections) {
         DERMIS_TRY_ASSIGN(made["reflections"], add_reflections(environment, panorama, head.files));
     }
     return made;

@@ -34,13 +34,12 @@
 // SphericalHarmonicsL2, of each red, green and blue, of the irradiance over pi in a world whose x is
 // mirrored.
 //
-// With reflected_shares, reflected_shares.exr has what a lobe reflects of light from all around
-// (head_maps.h).
+// With reflected_shares, reflected_shares.exr has what a lobe reflects of light from all around, with
+// reflections, reflections.exr what lobes see of the environment (head_maps.h).
 //
 // With still_maps, the meshes have none of the numbers above from TEXCOORD_2 on: vertex_maps of scene.json
-// names the maps that have them (head_maps.h), and a mesh stands still. A light has the map of
-// its shadow, environment.ambient_terms has nine colours, and reflections.exr has what
-// lobes see of the environment.
+// names the maps that have them (head_maps.h), and a mesh stands still. A light has the map of its shadow,
+// and environment.ambient_terms has nine colours.
 
 #include <array>
 #include <string>

@@ -12,7 +12,6 @@
 #include "dermis/render/frame_values.h"
 #include "dermis/scene/brdf_table.h"
 #include "dermis/scene/cube_map.h"
-#include "dermis/scene/panorama.h"
 #include "dermis/scene/prefilter.h"
 
 namespace dermis::inline engines {
@@ -24,10 +23,9 @@ using web::to_json;
 constexpr int kVertexMapSize = 1024, kGutterTexels = 16, kShadowMapSize = 2048;
 constexpr const char* kBends = "vertex_bends.exr";
 constexpr const char* kOcclusion = "vertex_occlusion.png";
-constexpr const char* kReflections = "reflections.exr";
-// Rough lobes, which skin has, are wider than the 2.8 degrees of a texel; texels of a cube's side from which
+// Rough lobes, which skin has, are wider than the 3 degrees of a texel; texels of a cube's side from which
 // they are filtered.
-constexpr int kReflectionLevels = 6, kReflectionHeight = 64, kReflectionPyramid = 128;
+constexpr int kReflectionLevels = 6, kReflectionTexels = 64, kReflectionPyramid = 128;
 
 // The four pairs between the corners of a triangle.
 std::array<Vec2, 4> between(const Mesh& mesh, const VertexNumbers& numbers, const UvTexel& texel) {
@@ -90,6 +88,22 @@ void draw_depths(const Mesh& mesh, const Submesh& submesh, const LightView& view
             if (depth > depths.at(x, y, 0)) depths.set(x, y, 0, depth);
         });
     }
+}
+
+// Of the place x, z on an octahedron whose lower half is folded outwards (engines/common/reflections.glsl);
+// beyond -1 and 1 the place across the edge.
+Vec3 octahedron_direction(float x, float z) {
+    if (std::abs(x) > 1) {
+        x = std::copysign(2 - std::abs(x), x);
+        z = -z;
+    }
+    if (std::abs(z) > 1) {
+        z = std::copysign(2 - std::abs(z), z);
+        x = -x;
+    }
+    const float y = 1 - std::abs(x) - std::abs(z);
+    if (y >= 0) return normalize({x, y, z});
+    return normalize({std::copysign(1 - std::abs(z), x), y, std::copysign(1 - std::abs(x), z)});
 }
 
 }  // namespace
@@ -163,28 +177,26 @@ Result<void> add_reflected_shares(std::vector<PackageFile>& files) {
 Result<json> add_reflections(const Environment& environment, const Image& panorama,
                              std::vector<PackageFile>& files) {
     const CubePyramid pyramid(panorama, kReflectionPyramid);
-    constexpr int kWidth = 2 * kReflectionHeight;
-    Image reflections(kWidth + 2, kReflectionHeight * kReflectionLevels, 3, PixelFormat::f16);
+    constexpr int kSide = kReflectionTexels + 2;
+    Image reflections(kSide, kSide * kReflectionLevels, 3, PixelFormat::f16);
     for (int level = 0; level < kReflectionLevels; ++level) {
         const PrefilteredLobe lobe(pyramid, float(level) / (kReflectionLevels - 1), prefilter_samples(level),
-                                   4 * kPi / (kWidth * kReflectionHeight));
-        parallel_for(kReflectionHeight, 1, [&](size_t begin, size_t end) {
+                                   4 * kPi / (kReflectionTexels * kReflectionTexels));
+        parallel_for(kSide, 1, [&](size_t begin, size_t end) {
             for (size_t row = begin; row < end; ++row)
-                for (int x = 0; x < kWidth; ++x) {
-                    const Vec3 d = panorama_direction((float(x) + 0.5f) / kWidth,
-                                                      (float(row) + 0.5f) / kReflectionHeight);
+                for (int x = 0; x < kSide; ++x) {
+                    const Vec3 d = octahedron_direction((float(x) - 0.5f) / kReflectionTexels * 2 - 1,
+                                                        (float(row) - 0.5f) / kReflectionTexels * 2 - 1);
                     const Vec3 c =
                         lobe.reflected(to_environment(d, environment.yaw_rad)) * environment.intensity;
-                    const int y = level * kReflectionHeight + int(row);
-                    for (const int column : {x + 1, x == 0 ? kWidth + 1 : x == kWidth - 1 ? 0 : x + 1}) {
-                        reflections.set(column, y, 0, c.x);
-                        reflections.set(column, y, 1, c.y);
-                        reflections.set(column, y, 2, c.z);
-                    }
+                    const int y = level * kSide + int(row);
+                    reflections.set(x, y, 0, c.x);
+                    reflections.set(x, y, 1, c.y);
+                    reflections.set(x, y, 2, c.z);
                 }
         });
     }
-    DERMIS_TRY(add_picture(kReflections, reflections, files));
+    DERMIS_TRY(add_picture(std::string(kReflections), reflections, files));
     return json{{"file", kReflections}, {"levels", kReflectionLevels}};
 }
 

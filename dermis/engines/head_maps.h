@@ -38,16 +38,15 @@ using VertexNumbers = std::vector<std::vector<Vec2>>;
 /// x^2 - y^2: nine colours, intensity included.
 [[nodiscard]] nlohmann::json ambient_terms(const EnvironmentLight& light, const Environment& environment);
 
-inline constexpr std::string_view kReflectedShares = "reflected_shares.exr";
+inline constexpr std::string_view kReflectedShares = "reflected_shares.exr", kReflections = "reflections.exr";
 
 /// kReflectedShares: of light from all around, what a GGX lobe reflects, f0 times red plus green; n.v from
 /// left to right, roughness from top to bottom (scene/brdf_table.h).
 [[nodiscard]] Result<void> add_reflected_shares(std::vector<PackageFile>& files);
 
-/// reflections.exr: the environment of the world as GGX lobes of kReflectionLevels roughnesses, 0 to 1,
-/// reflect it, each a latitude-longitude picture (scene/panorama.h) below that of the less rough one;
-/// intensity included. A column of each end is repeated at the other one. Half a second. Returns its name and
-/// number of levels.
+/// kReflections: the environment of the world as GGX lobes of even roughnesses from 0 to 1 see it, in the
+/// layout of engines/common/reflections.glsl; intensity included. Half a second. Returns its name and number
+/// of levels.
 [[nodiscard]] Result<nlohmann::json> add_reflections(const Environment& environment, const Image& panorama,
                                                      std::vector<PackageFile>& files);
 

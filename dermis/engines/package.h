@@ -57,7 +57,8 @@ struct HeadFormat {
     bool linear_keys = false;       ///< clips without cubic splines
     bool ambient_probe = false;     ///< scene.json has Unity's numbers for light from all around
     bool reflected_shares = false;  ///< what of light from all around a lobe reflects is a picture
-    /// The head stands still, numbers of its vertices are maps, and directional lights have maps of their
+    bool reflections = false;       ///< what lobes see of the environment is a picture
+    /// The head stands still, numbers of its vertices are maps, and lights have maps of their
     /// shadows: for an engine whose materials read neither vertices' numbers nor shadows.
     bool still_maps = false;
 };

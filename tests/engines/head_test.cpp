@@ -121,4 +121,9 @@ TEST_P(GodotHead, has_the_renderers_effect_and_a_mistake_loses_it) {
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
 
     expect_effect(0.25, {"shadow", "place"});
+    // With the engine's reflections 0.04.
+    const Image own = rendered("--technique lambert");
+    const double error = distance(read("lambert"), own) / distance(own, Image(48, 48, 3));
+    RecordProperty("picture", std::to_string(error));
+    EXPECT_LT(error, 0.03);
 }

@@ -4,8 +4,8 @@ extends Node
 
 const FOLDER := "res://addons/dermis_skin/"
 
-# Of all light: nothing is cut off at 1, and the mean of several pictures is finer than the 8 bits of each.
-const SCALES: Array[float] = [0.5, 0.488, 0.477, 0.465, 0.454, 0.443]
+# Of all light, from 0.5 down: nothing is cut off at 1, and the mean of several pictures is finer than the 8 bits of each.
+const LEAST_SCALE := 0.42
 
 var choice := {}
 var viewport := SubViewport.new()
@@ -78,17 +78,19 @@ func _set_ambient(head: Node3D, part: float) -> void:
 
 
 func _add_pictures(head: Node3D) -> void:
-	for scale in SCALES:
+	var count := int(choice.get("exposures", 6))
+	for number in count:
+		var scale := lerpf(0.5, LEAST_SCALE, float(number) / count)
 		head.environment.tonemap_exposure = scale
 		# Compatibility does not expose the background.
 		head.environment.background_color = (background_linear * scale).linear_to_srgb()
-		for i in 3 if scale == SCALES[0] else 1:
+		for i in 3 if number == 0 else 1:
 			await RenderingServer.frame_post_draw
 			if choice.get("mistake") == "place":
 				_move_depths(head)
 		var image := viewport.get_texture().get_image()
 		image.convert(Image.FORMAT_RGBA8)
-		JavaScriptBridge.eval("window.addPicture('%s', %f)" % [Marshalls.raw_to_base64(image.get_data()), scale * SCALES.size()])
+		JavaScriptBridge.eval("window.addPicture('%s', %f)" % [Marshalls.raw_to_base64(image.get_data()), scale * count])
 
 
 # The depths are looked up 20 mm higher.

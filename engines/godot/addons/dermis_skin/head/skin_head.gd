@@ -151,7 +151,9 @@ static func _environment_values(sky: Dictionary) -> Dictionary:
 	var harmonics := PackedVector3Array()
 	for one: Array in sky.radiance_sh:
 		harmonics.append(_vector(one) * sky.intensity)
-	return {"has_environment": true, "environment_sh": harmonics, "environment_turn": Vector2(cos(sky.yaw_rad), sin(sky.yaw_rad))}
+	return {"has_environment": true, "environment_sh": harmonics, "environment_turn": Vector2(cos(sky.yaw_rad), sin(sky.yaw_rad)),
+		"reflections": load(FOLDER + sky.reflections.file), "reflection_levels": sky.reflections.levels,
+		"reflected_shares": load(FOLDER + "reflected_shares.exr")}
 
 
 func _add_light(one: Dictionary) -> void:
