@@ -1,5 +1,9 @@
 #include "dermis/base/cache.h"
 
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+
 #include "dermis/base/file.h"
 #include "dermis/base/hash.h"
 #include "dermis/base/system/system.h"
@@ -19,6 +23,47 @@ fs::path entry_path(std::string_view kind, std::string_view hash) {
     return cache_directory() / kind / hash;
 }
 
+// The content of a file, if it is the entry of this name.
+std::optional<std::vector<std::byte>> content(const fs::path& path, std::string_view kind,
+                                              std::string_view hash) {
+    Result<std::vector<std::byte>> file = read_file(path);
+    if (!file || file->size() < kChecksumBytes) return std::nullopt;
+    const size_t content_bytes = file->size() - kChecksumBytes;
+    const std::string stored(reinterpret_cast<const char*>(file->data()) + content_bytes, kChecksumBytes);
+    file->resize(content_bytes);
+    if (stored != checksum(kind, hash, *file)) return std::nullopt;
+    return std::move(*file);
+}
+
+struct Entry {
+    fs::path path;
+    fs::file_time_type used;
+    uint64_t bytes = 0;
+};
+
+// Regular files in the folders of the cache. What another process removes meanwhile is left out.
+std::vector<Entry> cache_files() {
+    std::vector<Entry> found;
+    std::error_code ec;
+    for (const fs::directory_entry& folder : fs::directory_iterator(cache_directory(), ec)) {
+        if (!folder.is_directory(ec) || folder.is_symlink(ec)) continue;
+        for (const fs::directory_entry& file : fs::directory_iterator(folder.path(), ec)) {
+            if (!file.is_regular_file(ec) || file.is_symlink(ec)) continue;
+            const Entry entry = {file.path(), file.last_write_time(ec), file.file_size(ec)};
+            if (!ec) found.push_back(entry);
+        }
+    }
+    return found;
+}
+
+// An entry's time is that of its last use. Once an hour: a write costs more than the read on some disks.
+void mark_used(const fs::path& path) {
+    std::error_code ec;
+    const auto now = fs::file_time_type::clock::now();
+    if (now - fs::last_write_time(path, ec) > std::chrono::hours(1) && !ec)
+        fs::last_write_time(path, now, ec);
+}
+
 }  // namespace
 
 fs::path cache_directory() {
@@ -31,13 +76,25 @@ std::optional<std::vector<std::byte>> cache_load(std::string_view kind, std::str
     std::error_code ec;
     const fs::path path = entry_path(kind, hash);
     if (!fs::is_regular_file(path, ec)) return std::nullopt;
-    Result<std::vector<std::byte>> file = read_file(path);
-    if (!file || file->size() < kChecksumBytes) return std::nullopt;
-    const size_t content_bytes = file->size() - kChecksumBytes;
-    const std::string stored(reinterpret_cast<const char*>(file->data()) + content_bytes, kChecksumBytes);
-    file->resize(content_bytes);
-    if (stored != checksum(kind, hash, *file)) return std::nullopt;
-    return std::move(*file);
+    auto found = content(path, kind, hash);
+    if (found) mark_used(path);
+    return found;
+}
+
+void limit_cache(uint64_t most_bytes) {
+    std::vector<Entry> files = cache_files();
+    uint64_t sum = 0;
+    for (const Entry& file : files) sum += file.bytes;
+    if (sum <= most_bytes) return;
+    std::ranges::sort(files, {}, &Entry::used);
+    const auto yesterday = fs::file_time_type::clock::now() - std::chrono::hours(24);
+    for (const Entry& file : files) {
+        if (sum <= most_bytes / 4 * 3 || file.used > yesterday) return;
+        const std::string kind = file.path.parent_path().filename().string();
+        if (!content(file.path, kind, file.path.filename().string())) continue;
+        std::error_code ec;
+        if (fs::remove(file.path, ec)) sum -= file.bytes;
+    }
 }
 
 bool cache_store(std::string_view kind, std::string_view hash, const std::vector<std::byte>& bytes) {
@@ -48,7 +105,10 @@ bool cache_store(std::string_view kind, std::string_view hash, const std::vector
     std::vector<std::byte> file = bytes;
     const std::string sum = checksum(kind, hash, bytes);
     file.insert(file.end(), as_bytes(sum).begin(), as_bytes(sum).end());
-    return write_file(path, file).ok();
+    const bool stored = write_file(path, file).ok();
+    static std::once_flag limited;
+    std::call_once(limited, [] { limit_cache(); });
+    return stored;
 }
 
 }  // namespace dermis::inline base

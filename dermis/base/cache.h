@@ -1,8 +1,9 @@
 #pragma once
 // The disk cache of everything expensive, by content hash: $DERMIS_CACHE, else $XDG_CACHE_HOME/dermis, else
 // ~/.cache/dermis (Windows: %LOCALAPPDATA%/dermis/cache). Deleting it is always safe. If a file cannot be
-// written, the caller continues without it.
+// written, the caller continues without it. The first store of a process limits it to kCacheLimitBytes.
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string_view>
@@ -20,6 +21,14 @@ namespace dermis::inline base {
 /// The bytes stored as `kind`/`hash`, or nothing. A checksum of name and content makes a damaged or renamed
 /// file count as missing.
 [[nodiscard]] std::optional<std::vector<std::byte>> cache_load(std::string_view kind, std::string_view hash);
+
+/// Heads take tens of megabytes each, so that dozens of them fit.
+inline constexpr uint64_t kCacheLimitBytes = uint64_t(4) << 30;
+
+/// If the cache is larger, removes entries until three quarters of it are left, the one that was not used for
+/// longest first. What was used within a day stays, because a job may need it again, and so does a file that
+/// is no entry.
+void limit_cache(uint64_t most_bytes = kCacheLimitBytes);
 
 /// Best effort; false when nothing could be stored (a full disk, a read-only home).
 bool cache_store(std::string_view kind, std::string_view hash, const std::vector<std::byte>& bytes);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <new>
 
@@ -154,6 +155,34 @@ TEST(Cache, an_entry_under_anothers_name_is_made_again) {
     EXPECT_EQ(cache_load("kind", "one"), bytes);
     EXPECT_FALSE(cache_load("kind", "two"));
     EXPECT_FALSE(cache_load("other", "one"));
+}
+
+TEST(Cache, beyond_its_limit_loses_what_was_not_used_for_longest) {
+    const TemporaryDirectory dir;
+    const EnvironmentVariable cache("DERMIS_CACHE", dir.path.string());
+    const std::vector<std::byte> bytes(100);
+    const auto age = [&](const char* name, int days) {
+        fs::last_write_time(dir.path / "kind" / name,
+                            fs::file_time_type::clock::now() - std::chrono::hours(24 * days + 1));
+    };
+    ASSERT_TRUE(cache_store("kind", "oldest", std::vector<std::byte>(300)));
+    for (const char* name : {"older", "loaded", "today"}) ASSERT_TRUE(cache_store("kind", name, bytes));
+    ASSERT_TRUE(write_file(dir.path / "kind" / "own_file", bytes));
+    age("own_file", 9);
+    age("oldest", 4);
+    age("older", 3);
+    age("loaded", 5);
+    EXPECT_TRUE(cache_load("kind", "loaded"));
+
+    limit_cache(10000);
+    EXPECT_TRUE(fs::exists(dir.path / "kind" / "oldest")) << "the cache is smaller than that";
+    limit_cache(800);
+    EXPECT_FALSE(fs::exists(dir.path / "kind" / "oldest"));
+    EXPECT_TRUE(fs::exists(dir.path / "kind" / "older")) << "three quarters are left";
+    limit_cache(1);
+    EXPECT_FALSE(fs::exists(dir.path / "kind" / "older"));
+    for (const char* name : {"loaded", "today", "own_file"})
+        EXPECT_TRUE(fs::exists(dir.path / "kind" / name)) << name;
 }
 
 TEST(Cache, an_entry_of_another_size_is_made_again) {
