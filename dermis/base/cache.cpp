@@ -45,12 +45,17 @@ struct Entry {
 std::vector<Entry> cache_files() {
     std::vector<Entry> found;
     std::error_code ec;
-    for (const fs::directory_entry& folder : fs::directory_iterator(cache_directory(), ec)) {
-        if (!folder.is_directory(ec) || folder.is_symlink(ec)) continue;
-        for (const fs::directory_entry& file : fs::directory_iterator(folder.path(), ec)) {
-            if (!file.is_regular_file(ec) || file.is_symlink(ec)) continue;
-            const Entry entry = {file.path(), file.last_write_time(ec), file.file_size(ec)};
-            if (!ec) found.push_back(entry);
+    // A loop over the range would throw where a folder cannot be read to its end.
+    for (fs::directory_iterator folder(cache_directory(), ec), end; folder != end; folder.increment(ec)) {
+        std::error_code unread;
+        if (!folder->is_directory(unread) || folder->is_symlink(unread)) continue;
+        for (fs::directory_iterator file(folder->path(), unread); file != end; file.increment(unread)) {
+            std::error_code gone;
+            if (!file->is_regular_file(gone) || file->is_symlink(gone)) continue;
+            const auto used = file->last_write_time(gone);
+            if (gone) continue;
+            const uint64_t bytes = file->file_size(gone);
+            if (!gone) found.push_back({file->path(), used, bytes});
         }
     }
     return found;

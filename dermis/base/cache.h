@@ -25,9 +25,9 @@ namespace dermis::inline base {
 /// Heads take tens of megabytes each, so that dozens of them fit.
 inline constexpr uint64_t kCacheLimitBytes = uint64_t(4) << 30;
 
-/// If the cache is larger, removes entries until three quarters of it are left, the one that was not used for
-/// longest first. What was used within a day stays, because a job may need it again, and so does a file that
-/// is no entry.
+/// If the cache is larger than most_bytes, removes the least recently used entries until three quarters of
+/// most_bytes are left. Keeps entries that were used within a day, because a job may need them again, and
+/// files whose checksum is wrong, because they are not from this cache.
 void limit_cache(uint64_t most_bytes = kCacheLimitBytes);
 
 /// Best effort; false when nothing could be stored (a full disk, a read-only home).
