@@ -294,11 +294,12 @@ Result<json> head_lights_json(const HeadInput& input, Head& head) {
         const Light& light = scene.lights[i];
         lights.push_back(head_light_json(light, shadow_maps[i] >= 0));
         if (!input.format.still_maps || shadow_maps[i] < 0) continue;
-        auto shadow = add_shadow_map(scene, light, fmt::format("shadow_{}.exr", i), head.files);
-        if (shadow)
-            lights.back()["shadow"] = *shadow;
-        else
-            head.warnings.push_back("light '" + light.name + "' has no shadows: " + shadow.error().message);
+        if (!can_have_shadow_map(scene, light)) {
+            head.warnings.push_back("light '" + light.name + "' has no shadows: it is too near to the head");
+            continue;
+        }
+        DERMIS_TRY_ASSIGN(lights.back()["shadow"],
+                          add_shadow_map(scene, light, fmt::format("shadow_{}.exr", i), head.files));
     }
     return lights;
 }

@@ -23,9 +23,9 @@ using web::to_json;
 constexpr int kVertexMapSize = 1024, kGutterTexels = 16, kShadowMapSize = 2048;
 constexpr const char* kBends = "vertex_bends.exr";
 constexpr const char* kOcclusion = "vertex_occlusion.png";
-// Rough lobes, which skin has, are wider than the 3 degrees of a texel; texels of a cube's side from which
-// they are filtered.
-constexpr int kReflectionLevels = 6, kReflectionTexels = 64, kReflectionPyramid = 128;
+// A texel is 3 degrees wide, less than the lobes of skin.
+constexpr int kReflectionLevels = 6, kReflectionTexels = 64;
+constexpr int kReflectionPyramid = 128;  // texels along a side of the cube that is filtered
 
 // The four pairs between the corners of a triangle.
 std::array<Vec2, 4> between(const Mesh& mesh, const VertexNumbers& numbers, const UvTexel& texel) {
@@ -40,34 +40,32 @@ std::array<Vec2, 4> between(const Mesh& mesh, const VertexNumbers& numbers, cons
 // A camera at the light: without perspective where it is directional, else with the centre in its axis.
 struct LightView {
     Vec3 x, y, to_light, center_mm;
-    float radius_mm = 1;     // of the map at the centre
-    float per_distance = 0;  // of the light from the centre, in 1/mm; directional: 0
+    float radius_mm = 1;                // half of the map's side, measured at the centre
+    float inverse_distance_per_mm = 0;  // 1 over the distance from the light to the centre; directional: 0
 
     // Column and row in texels, and what is linear between them: the magnification against the centre, or
     // without perspective how far towards the light, in mm.
     [[nodiscard]] Vec3 place(Vec3 p_mm) const {
         const Vec3 from = p_mm - center_mm;
-        const float depth_mm = dot(from, to_light), larger = 1 / (1 - depth_mm * per_distance);
+        const float depth_mm = dot(from, to_light), larger = 1 / (1 - depth_mm * inverse_distance_per_mm);
         const float scale = kShadowMapSize / (2 * radius_mm) * larger;
         return {dot(from, x) * scale + kShadowMapSize / 2.0f, dot(from, y) * scale + kShadowMapSize / 2.0f,
-                per_distance > 0 ? larger : depth_mm};
+                inverse_distance_per_mm > 0 ? larger : depth_mm};
     }
     [[nodiscard]] float depth_mm(float linear) const {
-        return per_distance > 0 ? (1 - 1 / linear) / per_distance : linear;
+        return inverse_distance_per_mm > 0 ? (1 - 1 / linear) / inverse_distance_per_mm : linear;
     }
 };
 
-Result<LightView> light_view(const Scene& scene, const Light& light) {
+LightView light_view(const Scene& scene, const Light& light) {
     LightView view = {.center_mm = scene.bounds_center_mm, .radius_mm = scene.bounds_radius_mm};
     view.to_light = normalize(light.to_light_world);
     if (light.kind != LightKind::directional) {
         const Vec3 towards = light.position_mm - view.center_mm;
         const float distance_mm = length(towards);
-        // The cone that holds the sphere of the scene is then less than 150 degrees wide.
-        if (distance_mm < 1.04f * view.radius_mm) return Error{"it is too near to have shadows"};
         view.to_light = towards * (1 / distance_mm);
-        view.per_distance = 1 / distance_mm;
-        view.radius_mm /= std::sqrt(1 - std::pow(view.radius_mm * view.per_distance, 2.0f));
+        view.inverse_distance_per_mm = 1 / distance_mm;
+        view.radius_mm /= std::sqrt(1 - std::pow(view.radius_mm * view.inverse_distance_per_mm, 2.0f));
     }
     const Vec3 up = std::abs(view.to_light.y) < 0.9f ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
     view.x = normalize(cross(up, view.to_light));
@@ -90,8 +88,8 @@ void draw_depths(const Mesh& mesh, const Submesh& submesh, const LightView& view
     }
 }
 
-// Of the place x, z on an octahedron whose lower half is folded outwards (engines/common/reflections.glsl);
-// beyond -1 and 1 the place across the edge.
+// The direction at x, z of an octahedral map (engines/common/reflections.glsl), each -1 to 1. Outside, which
+// is the border, x and z wrap around the edge.
 Vec3 octahedron_direction(float x, float z) {
     if (std::abs(x) > 1) {
         x = std::copysign(2 - std::abs(x), x);
@@ -137,9 +135,15 @@ Result<json> add_vertex_maps(const Scene& scene, std::span<const VertexNumbers> 
     return json{{"bends", kBends}, {"occlusion", kOcclusion}};
 }
 
+bool can_have_shadow_map(const Scene& scene, const Light& light) {
+    // The cone around the scene's sphere is then less than 150 degrees wide.
+    return light.kind == LightKind::directional ||
+           length(light.position_mm - scene.bounds_center_mm) >= 1.04f * scene.bounds_radius_mm;
+}
+
 Result<json> add_shadow_map(const Scene& scene, const Light& light, const std::string& name,
                             std::vector<PackageFile>& files) {
-    DERMIS_TRY_ASSIGN(const LightView view, light_view(scene, light));
+    const LightView view = light_view(scene, light);
     Image depths(kShadowMapSize, kShadowMapSize, 1, PixelFormat::f16);
     for (int row = 0; row < depths.height; ++row)
         for (int column = 0; column < depths.width; ++column)
@@ -158,7 +162,7 @@ Result<json> add_shadow_map(const Scene& scene, const Light& light, const std::s
                 {"to_light", to_json(view.to_light)},
                 {"center_mm", to_json(view.center_mm)},
                 {"radius_mm", to_json(view.radius_mm)},
-                {"per_distance", to_json(view.per_distance)}};
+                {"inverse_distance_per_mm", to_json(view.inverse_distance_per_mm)}};
 }
 
 Result<void> add_reflected_shares(std::vector<PackageFile>& files) {

@@ -26,11 +26,14 @@ using VertexNumbers = std::vector<std::vector<Vec2>>;
                                                      std::span<const VertexNumbers> numbers,
                                                      std::vector<PackageFile>& files);
 
+/// False for a point or spot light in or close to the sphere around the scene.
+[[nodiscard]] bool can_have_shadow_map(const Scene& scene, const Light& light);
+
 /// What a light sees, as a half-float EXR of this name: in red, how far towards the light from center_mm its
 /// first surface is, in mm. Rows begin at -radius_mm along y, columns at -radius_mm along x; both axes are in
 /// what is returned, with to_light. Of a point or spot light these are lengths at center_mm, at 1 /
-/// per_distance mm from the light; a place that is d mm nearer is enlarged by 1 / (1 - d per_distance).
-/// Error: such a light is near or in the sphere around the scene.
+/// inverse_distance_per_mm mm from the light; a place that is d mm nearer is enlarged by 1 / (1 - d
+/// inverse_distance_per_mm). Only for a light that can_have_shadow_map().
 [[nodiscard]] Result<nlohmann::json> add_shadow_map(const Scene& scene, const Light& light,
                                                     const std::string& name, std::vector<PackageFile>& files);
 

@@ -38,8 +38,7 @@ class PrefilteredLobe {
     std::vector<Sample> samples_;
 };
 
-/// Of the lobe of a level, 0 the mirror: rough lobes are wide, and more samples keep the footprint of each
-/// small.
+/// Number of samples for the lobe of a mip level. Rough lobes are wider and take more.
 [[nodiscard]] uint32_t prefilter_samples(int level);
 
 /// Bytes of such a cube.

@@ -138,8 +138,8 @@ float3 SkinHeadAmbient(SkinHeadSurface s, float3 terms[9]) {
     return s.albedo * float3(of_red.r, of_green.gb) * s.scattered_occlusion * s.gain;
 }
 
-// Reflected light of the environment: the split sum (Karis 2013). radiance: what a lobe of s.roughness reflects of it towards the eye; shares: of
-// reflected_shares.exr at SkinReflectedShareAt(), the first row of the picture at v 0.
+// Reflected light of the environment: the split sum (Karis 2013). radiance: the environment, filtered by the lobe of s.roughness around the
+// mirrored direction; shares: red and green of reflected_shares.exr at SkinReflectedShareAt(), with the picture's first row at v 0.
 float2 SkinReflectedShareAt(SkinHeadSurface s) { return float2(SkinHeadNDotV(s), s.roughness); }
 float3 SkinHeadReflection(SkinHeadSurface s, float2 shares, float3 radiance) {
     return radiance * ((s.f0 * shares.x + shares.y) * skin_specular_occlusion(SkinHeadNDotV(s), s.occlusion, s.roughness));

@@ -60,7 +60,7 @@ if (ReflectionLevels > 0.5) Radiance += SkinHeadReflected(s, ReflectedShares, Re
 """
 # For each light; {0} is its number.
 NODE_SHADOW = """SkinShadowLight Shadow{0}Light = {{ Shadow{0}X, Shadow{0}Y, Shadow{0}ToLight, Shadow{0}CenterMm, Shadow{0}RadiusMm,
-    Shadow{0}PerDistance }};
+    Shadow{0}InverseDistancePerMm }};
 """
 NODE_LIGHT = NODE_SHADOW + """Radiance += SkinHeadLit(SkinTable, SkinTableSampler, s, p, Light{0}Direction, Light{0}Color, Shadow{0},
     Shadow{0}Light);
@@ -142,7 +142,7 @@ def skin_numbers(scene, surface):
     for i, lamp in enumerate(scene["lights"]):
         shadow = lamp.get("shadow", {})
         numbers["Shadow%dRadiusMm" % i] = shadow.get("radius_mm", 1.0)
-        numbers["Shadow%dPerDistance" % i] = shadow.get("per_distance", 0.0)
+        numbers["Shadow%dInverseDistancePerMm" % i] = shadow.get("inverse_distance_per_mm", 0.0)
         if lamp["kind"] == "directional":
             continue
         # A point light shines in all directions.
